@@ -42,6 +42,8 @@ std::vector<Case> allCases() {
           three_fingers::make(),
           five_fingers::make(),
           two_hands::make(),
+          held_at_haptic_rate::make(),
+          tea_tray::make(),
           hand_over::make(),
           peg_in_hole::make(),
           wall_of_343::make(),

@@ -118,6 +118,12 @@ Case make();
 namespace five_fingers {
 Case make();
 }
+namespace held_at_haptic_rate {
+Case make();
+}
+namespace tea_tray {
+Case make();
+}
 namespace two_hands {
 Case make();
 }

@@ -137,7 +137,7 @@ std::vector<Finding> carry(const Carried& carried) {
   run.run();
 
   Finding distance = finding("distance from the reference", 1000 * std::sqrt(sum / static_cast<double>(count)), "mm",
-                             0.2, "RMS against the springs alone, integrated at 10 us");
+                             carried.bound, "RMS against the springs alone, integrated at 10 us");
   distance.plot_x = "time [s]";
   distance.plot_y = "distance from the reference [mm]";
   distance.curves.push_back(decimated(std::move(error)));

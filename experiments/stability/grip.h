@@ -42,9 +42,10 @@ struct Carried {
   /// Normal force of each finger at rest [N]; empty: that of the body at rest on the same springs, which may tilt.
   std::vector<double> forces;
   std::string oracle;  ///< of these forces
+  double bound = 0.2;  ///< of the distance [mm]
 };
 /// Judges the normal forces just before the motion begins (0.1 %), and the distance of the body from a HeldBody on the
-/// same springs while it moves (0.2 mm RMS over 3.5 s and the ends of three axes 50 mm long).
+/// same springs while it moves (RMS over 3.5 s and the ends of three axes 50 mm long).
 std::vector<Finding> carry(const Carried& carried);
 /// Trials for 10 and 100 g under fingers of 2 and 10 N/mm, shaken along each axis, with each coupling.
 std::vector<Trial> carriedTrials(

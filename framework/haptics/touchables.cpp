@@ -84,14 +84,6 @@ void Touchables::hold(const ObjectState& objects) noexcept {
   ++tick_;
 }
 
-void Touchables::place(const HeldBodies& held) noexcept {
-  held_ = &held;
-  for (const HeldBody& body : held.bodies) {
-    X_WB_[static_cast<std::size_t>(body.body)] = body.X_WB;
-    placed_in_[static_cast<std::size_t>(body.body)] = tick_;
-  }
-}
-
 const Pose& Touchables::placed(std::int32_t body) const noexcept {
   const auto b = static_cast<std::size_t>(body);
   if (moves_[b] != 0 && placed_in_[b] != tick_ && body < objects_->count()) {
@@ -101,18 +93,10 @@ const Pose& Touchables::placed(std::int32_t body) const noexcept {
   return X_WB_[b];
 }
 
-Touchables::Velocity Touchables::velocityOf(std::int32_t body) const noexcept {
-  if (held_ != nullptr) {
-    if (const HeldBody* held = held_->find(body)) return {held->v_WB, held->w_WB};
-  }
-  const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(body)];
-  return {motion.v_WB, motion.w_WB};
-}
-
 Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
   if (objects_ == nullptr || body >= objects_->count()) return Vec3::Zero();
-  const Velocity velocity = velocityOf(body);
-  return velocity.v_WB + velocity.w_WB.cross(p_W - placed(body).p);
+  const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(body)];
+  return motion.v_WB + motion.w_WB.cross(p_W - placed(body).p);
 }
 
 double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved,
@@ -138,8 +122,8 @@ double Touchables::meet(const Touchable& touchable, const Query& query, const Ne
   double approach = 0;
   if (moves_[static_cast<std::size_t>(touchable.body)] != 0 && objects_ != nullptr &&
       touchable.body < objects_->count()) {
-    const Velocity velocity = velocityOf(touchable.body);
-    const double speed = velocity.v_WB.norm() + velocity.w_WB.norm() * (query.p_WH - X_WB.p).norm();
+    const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(touchable.body)];
+    const double speed = motion.v_WB.norm() + motion.w_WB.norm() * (query.p_WH - X_WB.p).norm();
     if (speed > 0) approach = query.moved + query.period * speed;
   }
   const double reach = query.reach + kTicksAhead * approach;

@@ -3,7 +3,6 @@
 
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
-#include "framework/haptics/held_bodies.h"
 #include "framework/haptics/surroundings.h"
 #include "framework/scene/world.h"
 
@@ -29,8 +28,6 @@ class Touchables {
   /// bodies have their start poses.
   void interpolate(const ObjectState& objects, double time) noexcept;
   void hold(const ObjectState& objects) noexcept;
-  /// After one of these: the bodies that the haptic thread moves itself are where it moved them.
-  void place(const HeldBodies& held) noexcept;
 
   Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the material point of the body at p_W [m/s].
@@ -53,11 +50,6 @@ class Touchables {
   };
   static Touchable touchableOf(const World& world, std::size_t body);
   const Pose& placed(std::int32_t body) const noexcept;
-  /// At the end of the dynamics step, or now for a body that the haptic thread moves.
-  struct Velocity {
-    Vec3 v_WB, w_WB;
-  };
-  Velocity velocityOf(std::int32_t body) const noexcept;
   /// Query of one finger in one tick.
   struct Query {
     Surroundings& near;
@@ -75,7 +67,6 @@ class Touchables {
   double largest_ = 0, smallest_ = 0;       // radii of the bounding spheres [m]
   std::size_t mesh_count_ = 0;
   const ObjectState* objects_ = nullptr;  // object state of this tick
-  const HeldBodies* held_ = nullptr;      // null: the scene has no such coupling
   double time_ = 0;
   bool at_end_ = false;
   // pose cache, filled on demand; single thread

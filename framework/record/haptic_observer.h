@@ -21,14 +21,15 @@ struct HapticSample {
 
 /// A module that sees every haptic tick after the output stage and changes nothing: monitor, status line, trial, study.
 /// In ports, all optional (a scene without fingers has none): device_state, contact_exchange, force_command,
-/// object_state. Thread: haptic; nonblocking.
+/// object_state, shown_objects. Thread: haptic; nonblocking.
 class HapticObserver : public Module {
  public:
   explicit HapticObserver(std::string name) : Module(std::move(name), RateGroup::kHaptic) {}
   virtual void observe(const HapticSample& sample) noexcept = 0;
   void step(const Tick& tick) noexcept final {
+    const In<ObjectState>& objects = shown_.connected() ? shown_ : objects_;
     observe({tick, device_.value(), contact_.value(), command_.value(),
-             objects_.connected() && objects_.hasValue() ? &objects_.value() : nullptr, objects_.version()});
+             objects_.connected() && objects_.hasValue() ? &objects.value() : nullptr, objects_.version()});
   }
 
  private:
@@ -36,6 +37,7 @@ class HapticObserver : public Module {
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+  In<ObjectState> shown_{*this, kShownObjectsPort, In<ObjectState>::Optional{}};
 };
 
 }  // namespace presa

@@ -33,7 +33,8 @@ enum Code {
   kWatchdog = 222,
   kSlowDynamics = 223,
   kTwoLaws = 224,
-  kOtherRenderer = 225
+  kOtherRenderer = 225,
+  kNotAtHapticRate = 228
 };
 
 // Between two dynamics steps a held body moves on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4
@@ -81,6 +82,7 @@ class SceneCheck {
     for (const Element& rates : root_.children("rates")) checkRates(rates);
     const auto moves = [](const Element& body) { return !body.flawed("fixed") && !body.boolean("fixed", false); };
     if (!devices.empty() && std::any_of(bodies.begin(), bodies.end(), moves)) checkDynamics(devices);
+    for (const Element& dynamics : root_.children("dynamics")) checkCoupling(dynamics);
     for (const Element& material : materials_) checkFriction(material);
     for (const Element& haptics : root_.children("haptics")) checkRenderer(haptics);
     if (bodies.empty())
@@ -192,6 +194,28 @@ class SceneCheck {
     while (faster > 1 && !is_short(faster)) --faster;
     if (faster >= 1) rates.push_back(shortText(haptic / faster));
     return listed(rates);
+  }
+
+  // The haptic thread has Presa's own solvers only, and no snap constraints.
+  void checkCoupling(const Element& dynamics) {
+    if (dynamics.flawed("coupling") || dynamics.attribute("coupling") != "haptic_rate") return;
+    const auto refuse = [&](const SourceLocation& where, const std::string& found, const std::string& allowed) {
+      diagnostics_.error(kNotAtHapticRate, where, "the coupling 'haptic_rate' does not go with " + found, allowed);
+    };
+    const std::vector<std::pair<const char*, std::vector<std::string>>> own{
+        {"engine", {kDefaultEngine}},
+        {"solver", {"auto", "newton", "small_steps"}},
+        {"friction", {"isotropic"}},
+        {"rotation", {"exact"}}};
+    for (const auto& [name, allowed] : own) {
+      if (!dynamics.hasAttribute(name) || dynamics.flawed(name)) continue;
+      const std::string value = dynamics.attribute(name);
+      if (std::ranges::find(allowed, value) != allowed.end()) continue;
+      refuse(dynamics.where(name), std::string(name) + "=\"" + value + "\"",
+             std::string("allowed for ") + name + ": " + listed(allowed) + "; or another coupling");
+    }
+    for (const Element& assembly : root_.children("assembly"))
+      refuse(assembly.where(), "an <assembly>, whose snap constraints act in the dynamics", "use the coupling 'soft'");
   }
 
   void checkFriction(const Element& material) {

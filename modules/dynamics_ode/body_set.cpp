@@ -356,9 +356,13 @@ void BodySet::detach(Entry& entry) {
   entry.still = true;
 }
 
-void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
+void BodySet::setPose(const Entry& entry, const Pose& X_WCm) {
   dBodySetPosition(entry.body, X_WCm.p.x(), X_WCm.p.y(), X_WCm.p.z());
   dBodySetQuaternion(entry.body, toOde(X_WCm.q).data());
+}
+
+void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
+  setPose(entry, X_WCm);
   for (const ShapeEntry& shape : shapesOf(entry)) {
     const Pose X_WG = X_WCm * shape.X_CmG;
     dGeomSetPosition(shape.geom, X_WG.p.x(), X_WG.p.y(), X_WG.p.z());
@@ -392,9 +396,23 @@ void BodySet::take(std::size_t i) {
 
 void BodySet::place(std::size_t i, const Pose& X_WB) { moveTo(bodies_[i], centreOf(i, X_WB)); }
 
-void BodySet::carry(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) {
-  place(i, X_WB);
-  setVelocity(bodies_[i], v_WB, w_WB);
+void BodySet::hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) {
+  Entry& entry = bodies_[i];
+  if (moves(i)) {
+    enable(i, false);
+    entry.still = entry.held = true;
+  }
+  setPose(entry, centreOf(i, X_WB));
+  setVelocity(entry, v_WB, w_WB);
+}
+
+void BodySet::release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) {
+  Entry& entry = bodies_[i];
+  setPose(entry, centreOf(i, X_WB));
+  setVelocity(entry, v_WB, w_WB);
+  entry.still = entry.held = false;
+  entry.begin = read(entry);
+  enable(i, true);
 }
 
 std::size_t BodySet::freezeBroken() {
@@ -428,7 +446,7 @@ void BodySet::write(ObjectState& out) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Entry& entry = bodies_[i];
     BodyMotion motion;
-    if (awake(i) || isPut(i)) {
+    if (awake(i) || isPut(i) || isHeld(i)) {
       motion = now(i);
       motion.X_WB_begin = std::exchange(entry.X_WB, motion.X_WB_end);
     } else {

@@ -96,11 +96,15 @@ class BodySet {
   /// Turns moving body `i` into a fixed obstacle at its pose, until take() returns it to the dynamics, at rest.
   void put(std::size_t i);
   void take(std::size_t i);
-  bool isPut(std::size_t i) const noexcept { return bodies_[i].still && !bodies_[i].frozen; }
+  bool isPut(std::size_t i) const noexcept { return bodies_[i].still && !bodies_[i].frozen && !bodies_[i].held; }
   /// Sets the pose of a put body.
   void place(std::size_t i, const Pose& X_WB);
-  /// The same with velocities to report: of B's origin [m/s], and angular [rad/s]. What it touches does not feel them.
-  void carry(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
+  /// Turns moving body `i` into an obstacle at this pose, until release(); nonblocking, for Presa's own solvers only. Its
+  /// velocities are reported, of B's origin [m/s] and angular [rad/s]; what it touches does not feel them.
+  void hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
+  /// Lets it move on from this pose with these velocities.
+  void release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
+  bool isHeld(std::size_t i) const noexcept { return bodies_[i].held; }
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; only if it moves
 
@@ -177,8 +181,9 @@ class BodySet {
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0, rim = 0;      // rim: for reach(), about the centre of mass
     double added_mass = 0, added_inertia = 0;  // in the solves alone
-    bool still = false;                        // an obstacle: frozen or put
+    bool still = false;                        // an obstacle: frozen, put or held
     bool frozen = false;                       // permanently still after a fault
+    bool held = false;                         // still, with its geometries attached
     bool asleep = false, enabled = true;
     bool paused = false;   // asleep, but with its velocity
     bool rotated = false;  // by the solver of this step
@@ -204,6 +209,7 @@ class BodySet {
   }
   static State read(const Entry& entry);
   static void setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB);
+  static void setPose(const Entry& entry, const Pose& X_WCm);
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;

@@ -72,7 +72,8 @@ void addCounts(const HeldBodies& held, ObjectState& out) noexcept {
   out.energy.worst_step = std::max(out.energy.worst_step, counted.energy.worst_step);
   const BodyPenetration &a = out.penetration, &b = counted.penetration;
   const int points = a.points + b.points;
-  if (points > 0) out.penetration = {points, (a.points * a.mean + b.points * b.mean) / points, std::max(a.worst, b.worst)};
+  if (points > 0)
+    out.penetration = {points, (a.points * a.mean + b.points * b.mean) / points, std::max(a.worst, b.worst)};
   const std::size_t fingers = std::min(out.finger_impulse_W.size(), counted.finger_impulse_W.size());
   for (std::size_t f = 0; f < fingers; ++f) out.finger_impulse_W[f] += counted.finger_impulse_W[f];
   for (const FingerImpulse& touch : counted.touches) {

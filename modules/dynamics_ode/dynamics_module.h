@@ -7,9 +7,9 @@
 #include "framework/core/graph/port.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
-#include "framework/haptics/held_bodies.h"
 #include "framework/haptics/plugin_host.h"
 #include "framework/session/module_plugin.h"
+#include "modules/dynamics_ode/haptic_rate/held_bodies.h"
 #include "modules/dynamics_ode/ode_world.h"
 
 namespace presa::ode {

@@ -80,6 +80,7 @@ struct OdeWorld::Impl {
   void wakeStirred(double time, double period);
   void noteBrokenEffect();
   void findIslands(const ContactExchange& exchange);
+  std::int32_t islandOf(std::size_t i);
   void wakeTouched(const ContactExchange& exchange);
   bool anyIsland(const std::function<bool(const Islands::Island&)>& is) const;
   int layersThatMatter(int substeps);
@@ -145,6 +146,10 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
     const std::size_t A = index(contact.A), B = index(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
   }
+}
+
+std::int32_t OdeWorld::Impl::islandOf(std::size_t i) {
+  return static_cast<std::int32_t>(bodies.asleep(i) ? sleep->islandOf(i) : islands.of(i));
 }
 
 bool OdeWorld::Impl::anyIsland(const std::function<bool(const Islands::Island&)>& is) const {
@@ -299,16 +304,11 @@ void OdeWorld::step(const ContactExchange& fingers, double time, double period, 
 void OdeWorld::hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept {
   BodySet& bodies = impl_->bodies;
   if (bodies.asleep(i)) impl_->sleep->wake(bodies, i);
-  if (bodies.moves(i)) bodies.put(i);
-  if (bodies.isPut(i)) bodies.carry(i, X_WB, v_WB, w_WB);
+  if (bodies.moves(i) || bodies.isHeld(i)) bodies.hold(i, X_WB, v_WB, w_WB);
 }
 
 void OdeWorld::release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept {
-  BodySet& bodies = impl_->bodies;
-  if (!bodies.isPut(i)) return;
-  bodies.place(i, X_WB);
-  bodies.take(i);
-  bodies.setVelocity(i, v_WB, w_WB);
+  if (impl_->bodies.isHeld(i)) impl_->bodies.release(i, X_WB, v_WB, w_WB);
 }
 
 void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
@@ -331,6 +331,7 @@ void OdeWorld::addReactions(const EffectReactions& reactions, double period) noe
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {
   impl_->bodies.write(out);
+  for (std::size_t i = 0; i < out.bodies.size(); ++i) out.bodies[i].island = impl_->islandOf(i);
   out.time_begin = out.time_end = time;
   writeCounts(out);
 }

@@ -8,7 +8,6 @@
 #include "framework/core/state/object_state.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
-#include "framework/haptics/held_bodies.h"
 #include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/ode_options.h"

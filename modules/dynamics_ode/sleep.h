@@ -24,6 +24,8 @@ class Sleep {
 
   /// Call after each step of `h` [s]: observes awake bodies and puts resting islands to sleep.
   void afterStep(BodySet& bodies, Islands& islands, double h);
+  /// The island in which sleeping body `i` fell asleep.
+  std::size_t islandOf(std::size_t i) const noexcept { return group_[i]; }
   /// Wakes the whole island of sleeping or paused body `i`.
   void wake(BodySet& bodies, std::size_t i);
 

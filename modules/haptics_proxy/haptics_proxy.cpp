@@ -18,7 +18,11 @@ void holdBodies(Touchables& touchables, const ObjectState& objects, double) noex
 }  // namespace
 
 HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffects& effects)
-    : Module("haptics_proxy", RateGroup::kHaptic), world_(std::move(world)), effects_(effects), touchables_(*world_) {
+    : Module("haptics_proxy", RateGroup::kHaptic),
+      world_(std::move(world)),
+      effects_(effects),
+      touchables_(*world_),
+      objects_(*this, effects.held ? kShownObjectsPort : "object_state", In<ObjectState>::Optional{}, WhenOld::kHold) {
   for (const DeviceRole& role : world_->scene.devices) {
     RenderedFinger finger;
     finger.radius = std::max(role.fingertip_radius, touchables_.lift());
@@ -31,7 +35,6 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
   } else if (effects.poses == HapticEffects::Poses::kHold) {
     place_bodies_.push_back({"use the body poses at the end of the last dynamics step", holdBodies});
   }
-  if (effects.held) held_.push_back(std::make_unique<In<HeldBodies>>(*this, kHeldBodiesPort));
   const SurfacesInForce in_force = surfaces(effects);
   renderer_ = makeRenderer(*world_);
   own_contacts_ = BoundedList<RenderedContact>(renderer_->maxOwnContacts());
@@ -69,7 +72,6 @@ void HapticsProxy::step(const Tick& tick) noexcept {
   for (const auto& commanded : commanded_) commanded->surfaces.step(commanded->settings.value(), tick.period);
   if (objects_.hasValue()) {
     for (const PlaceBodies& stage : place_bodies_) stage.apply(touchables_, objects_.value(), tick.time);
-    for (const auto& held : held_) touchables_.place(held->value());
   }
   ContactExchange& out = contact_.value;
   out.time = tick.time;
@@ -158,7 +160,6 @@ std::vector<std::string> HapticsProxy::stages() const {
   std::vector<std::string> stages;
   if (!commanded_.empty()) stages.emplace_back("move the surface parameters smoothly to their commanded values");
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
-  if (!held_.empty()) stages.emplace_back("take the poses of what fingers hold from this tick's integration");
   stages.emplace_back("gather the pieces within reach of each fingertip");
   stages.push_back(renderer_->what());
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());

@@ -71,11 +71,10 @@ class HapticsProxy final : public Module, public PluginHost {
 
   In<DeviceState> device_{*this, "device_state"};
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};
-  In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}, WhenOld::kHold};
+  In<ObjectState> objects_;
   std::optional<In<SurfaceChange>> surface_change_;      // only if friction can change
   std::vector<std::unique_ptr<Commanded>> commanded_;    // none or one
   std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
-  std::vector<std::unique_ptr<In<HeldBodies>>> held_;    // none, or one if the haptic thread moves what fingers hold
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

@@ -338,7 +338,7 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
   if (touches)
     add("haptic_rate", quick ? std::vector<std::string>{"1000", "2000"}
                              : std::vector<std::string>{"400", "500", "1000", "2000", "4000"});
-  if (moves && touches) add("coupling", {"soft", "explicit", "averaged"});
+  if (moves && touches) add("coupling", {"soft", "explicit", "averaged", "haptic_rate"});
   if (moves && touches) add("pose", {"interpolate", "hold"});
   if (meshes)
     add("collision_rate",

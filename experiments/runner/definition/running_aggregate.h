@@ -34,16 +34,16 @@ class RunningAggregate {
 
   /// NaN without samples. `period`: the sample period [s].
   double result(double period) const noexcept {
-    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     using Kind = Aggregate::Kind;
     if (what_->kind == Kind::kSeconds) return static_cast<double>(count_) * period;
     if (what_->kind == Kind::kStart) return begin_;
-    if (count_ == 0) return kNothing;
+    if (count_ == 0) return kNaN;
     switch (what_->kind) {
       case Kind::kMean:
         return mean_;
       case Kind::kSd:
-        return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : kNothing;
+        return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : kNaN;
       case Kind::kMin:
         return min_;
       case Kind::kMax:

@@ -18,6 +18,7 @@ struct BodyMotion {
   Vec3 v_WB = Vec3::Zero();  ///< velocity of the body frame's origin at time_end [m/s]
   Vec3 w_WB = Vec3::Zero();  ///< angular velocity at time_end [rad/s]
   bool asleep = false;
+  std::int32_t island = -1;  ///< the same for bodies in contact, by way of free bodies; -1: the engine does not say
 };
 
 /// Faults of the dynamics (ObjectState::faults).
@@ -68,7 +69,7 @@ struct ObjectState {
   EnergyCreated energy;
   /// Steps since the start in which a body was stopped short of passing through another, summed over the bodies.
   std::uint64_t stopped_short = 0;
-  double held_time = -1;  ///< of the HeldBodies (framework/haptics) that this state follows [s]; -1: of none
+  double held_time = -1;  ///< of the newest bodies moved by the haptic thread that this state knows [s]; -1: none
   double far_lag = 0;  ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;
@@ -89,5 +90,9 @@ struct ObjectState {
     return interpolate(body.X_WB_begin, body.X_WB_end, std::clamp((t - time_begin) / span, 0.0, 1.0));
   }
 };
+
+/// Port of the Object State in which bodies that the haptic thread itself moves are where it has moved them; exists only
+/// in runs with such bodies, on the haptic thread.
+inline constexpr const char* kShownObjectsPort = "shown_objects";
 
 }  // namespace presa

@@ -70,7 +70,7 @@ class ActionReaction {
   std::vector<char> free_;  // by body
   std::size_t span_;        // dynamics steps in a window
   BoundedList<Touch> touches_;
-  std::vector<Giver> givers_;  // the dynamics, then the haptic thread if it moves what fingers hold
+  std::vector<Giver> givers_;    // the dynamics, then the haptic thread if it moves what fingers hold
   std::vector<Result> results_;  // by finger
 };
 

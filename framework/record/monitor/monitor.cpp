@@ -170,7 +170,7 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
       if (i >= state->bodies.size()) continue;
       const BodyMotion& motion = state->bodies[i];
       objects[i].peak_speed = std::max(objects[i].peak_speed, motion.v_WB.norm());
-      if (motion.X_WB_begin.p != motion.X_WB_end.p) moving.push_back(i);
+      if (motion.X_WB_begin.p != motion.X_WB_end.p || !motion.v_WB.isZero(0)) moving.push_back(i);
     }
   }
   for (std::size_t f = 0; f < contact.fingers.size(); ++f) {

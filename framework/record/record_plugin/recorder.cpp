@@ -162,15 +162,16 @@ void FileRecorder::fillTool(std::size_t slot, const Tick& tick) noexcept {
 
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {
   const std::int32_t index = free_bodies_[slot];
-  const bool known = objects_.hasValue() && index < objects_->count();
-  const Pose X_WB = poseOf(world_->scene, known ? &objects_.value() : nullptr, index, tick.time);
+  const In<ObjectState>& objects = shown_.connected() ? shown_ : objects_;
+  const bool known = objects_.hasValue() && index < objects->count();
+  const Pose X_WB = poseOf(world_->scene, known ? &objects.value() : nullptr, index, tick.time);
   BodyRow row;
   row.index = tick.index;
   row.time = tick.time;
   copy(X_WB.p, row.p_WB);
   copy(X_WB.q, row.q_WB);
   if (known) {
-    const BodyMotion& motion = objects_->bodies[static_cast<std::size_t>(index)];
+    const BodyMotion& motion = objects->bodies[static_cast<std::size_t>(index)];
     copy(motion.v_WB, row.v_WB);
     copy(motion.w_WB, row.w_WB);
   }

@@ -74,6 +74,7 @@ class FileRecorder final : public Recorder {
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
+  In<ObjectState> shown_{*this, kShownObjectsPort, In<ObjectState>::Optional{}};
   In<SurfaceChange> surfaces_{*this, "surface_change", In<SurfaceChange>::Optional{}};
   std::optional<In<SurfaceSettings>> commanded_;  // only when the run takes commands
   SettingsTaker commands_;

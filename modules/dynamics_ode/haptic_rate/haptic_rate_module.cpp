@@ -41,6 +41,11 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
   groups_.resize(room);
   out_.value.bodies = BoundedList<HeldBody>(room);
   FingerImpulses(scene).write(out_.value.counted);
+  FingerImpulses(scene).write(shown_objects_.value);
+  for (const Body& body : scene.bodies) {
+    BodyMotion& motion = shown_objects_.value.bodies.emplace_back();
+    motion.X_WB_begin = motion.X_WB_end = body.X_WB;
+  }
   if (scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::OfLastTick{});
   if (hasBodyEffects(scene)) body_effects_.emplace(*world_);
 }
@@ -128,7 +133,9 @@ void HapticRateModule::completeReturns() noexcept {
     held.X_WB = motion.X_WB_end;
     held.v_WB = motion.v_WB;
     held.w_WB = motion.w_WB;
-    if (entry.way.isOver(now_)) entries_.remove(e);
+    if (!entry.way.isOver(now_)) continue;
+    entries_.remove(e);
+    copied_ = 0;
   }
 }
 
@@ -149,23 +156,37 @@ void HapticRateModule::touch(std::int32_t body) noexcept {
   if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
   Entry* entry = find(i);
   const bool moved = entry != nullptr && entry->held.phase == HeldBody::Phase::kHeld;
-  if (!moved && now_ >= waits_[i].until) entry = take(i);
+  if (!moved && now_ >= waits_[i].until && takeIsland(i, 0)) entry = find(i);
   if (entry != nullptr) entry->finger = true;
 }
 
-// Takes body `i` over as it is shown; null: no room.
-HapticRateModule::Entry* HapticRateModule::take(std::size_t i) noexcept {
+// Takes over body `i` with all that it is in contact with, beside `others` of its group. False: they are too many.
+bool HapticRateModule::takeIsland(std::size_t i, std::size_t others) noexcept {
+  const auto with_it = [&](std::size_t j) {
+    if (j != i && objects_->bodies[j].island != objects_->bodies[i].island) return false;
+    const Entry* entry = find(j);
+    return entry == nullptr || entry->held.phase != HeldBody::Phase::kHeld;
+  };
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(free_, with_it));
+  if (others + count > world_->scene.dynamics.max_held || entries_.size() + count > entries_.capacity()) return false;
+  for (const std::size_t j : free_) {
+    if (with_it(j)) take(j);
+  }
+  return true;
+}
+
+// Takes body `i` over as it is shown.
+void HapticRateModule::take(std::size_t i) noexcept {
   Entry* entry = find(i);
   const bool leaving = entry != nullptr && entry->held.phase == HeldBody::Phase::kLeaving;
   const BodyMotion motion = leaving ? bodies_->motion(i) : shown(i);
   if (entry == nullptr) entry = entries_.add();
-  if (entry == nullptr) return nullptr;
+  if (entry == nullptr) return;  // takeIsland made sure of the room
   *entry = {};
   entry->held = {static_cast<std::int32_t>(i), HeldBody::Phase::kHeld, now_, motion.X_WB_end, motion.v_WB, motion.w_WB};
   entry->touched = now_;
   if (!leaving) bodies_->release(i, motion.X_WB_end, motion.v_WB, motion.w_WB);
   ++out_.value.taken;
-  return entry;
 }
 
 // Groups of held bodies in contact, by their least entry.
@@ -198,13 +219,9 @@ void HapticRateModule::growGroups() noexcept {
       const std::size_t group = holder->group;
       if (!groups_[group].touched || !groups_[group].grows) continue;
       if (const Entry* met = find(index(other)); met != nullptr && moves(*met)) continue;
-      Entry* taken = groups_[group].size < world_->scene.dynamics.max_held ? take(index(other)) : nullptr;
-      if (taken == nullptr) {
-        groups_[group].grows = false;
-        continue;
-      }
-      taken->group = group;
-      ++groups_[group].size;
+      const std::size_t before = entries_.size();
+      groups_[group].grows = takeIsland(index(other), groups_[group].size);
+      groups_[group].size += entries_.size() - before;
     }
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -246,6 +263,21 @@ void HapticRateModule::write() noexcept {
   out.bodies.clear();
   for (const Entry& entry : entries_) out.bodies.add(entry.held);
   bodies_->writeCounts(out.counted);
+  show();
+}
+
+// The dynamics' newest state, in which the held bodies are where they are now at both ends.
+void HapticRateModule::show() noexcept {
+  ObjectState& shown = shown_objects_.value;
+  if (objects_.version() != copied_) shown = objects_.value();
+  copied_ = objects_.version();
+  for (const HeldBody& held : out_.value.bodies) {
+    BodyMotion& motion = shown.bodies[index(held.body)];
+    motion.X_WB_begin = motion.X_WB_end = held.X_WB;
+    motion.v_WB = held.v_WB;
+    motion.w_WB = held.w_WB;
+    motion.asleep = false;
+  }
 }
 
 std::vector<std::string> HapticRateModule::stages() const {

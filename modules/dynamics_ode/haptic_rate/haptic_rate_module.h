@@ -8,17 +8,17 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/effect_reactions.h"
-#include "framework/haptics/held_bodies.h"
 #include "framework/haptics/plugin_host.h"
 #include "modules/dynamics_ode/haptic_rate/gentle_return.h"
+#include "modules/dynamics_ode/haptic_rate/held_bodies.h"
 #include "modules/dynamics_ode/ode_world.h"
 
 namespace presa::ode {
 
 /// Moves the bodies that fingers hold, and what stands on them, in the haptic tick: object state and the contact
-/// exchange of the last tick in, held bodies out (Harwin and Barrow, section 6.2). A body is taken over from the
-/// dynamics when a finger touches it, or when it meets such a body; it is given back when no finger holds its group for
-/// kLetGo, or when the group grows beyond DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
+/// exchange of the last tick in, held bodies and the object state as it is shown out (Harwin and Barrow, section 6.2). A body is taken over from the
+/// dynamics, with all that it is in contact with, when a finger touches it, or when it meets such a body; it is given back
+/// when no finger holds its group for kLetGo, or when the group grows beyond DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
 class HapticRateModule final : public Module, public PluginHost {
  public:
   HapticRateModule(std::shared_ptr<const World> world, std::uint64_t seed);
@@ -35,11 +35,11 @@ class HapticRateModule final : public Module, public PluginHost {
 
   struct Entry {
     HeldBody held;
-    double touched = 0;       // when a finger last held its group [s]
+    double touched = 0;        // when a finger last held its group [s]
     double leaving_since = 0;  // [s]
-    GentleReturn way;         // of a body that was given back
-    std::size_t group = 0;    // least index of an entry in contact with it
-    bool finger = false;      // a finger touches it
+    GentleReturn way;          // of a body that was given back
+    std::size_t group = 0;     // least index of an entry in contact with it
+    bool finger = false;       // a finger touches it
   };
   struct Wait {
     double until = 0, next = kFirstWait;  // [s]
@@ -59,17 +59,20 @@ class HapticRateModule final : public Module, public PluginHost {
   void completeReturns() noexcept;
   void markTouched(const ContactExchange& fingers) noexcept;
   void touch(std::int32_t body) noexcept;
-  Entry* take(std::size_t body) noexcept;
+  bool takeIsland(std::size_t body, std::size_t others) noexcept;
+  void take(std::size_t body) noexcept;
   void findGroups() noexcept;
   void growGroups() noexcept;
   void leave(Entry& entry) noexcept;
   void giveBack(std::size_t group) noexcept;
   void leaveUntouched() noexcept;
   void write() noexcept;
+  void show() noexcept;
 
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   In<ContactExchange> fingers_{*this, "contact_exchange", In<ContactExchange>::OfLastTick{}};
   Out<HeldBodies> out_{*this, kHeldBodiesPort};
+  Out<ObjectState> shown_objects_{*this, kShownObjectsPort};
   std::optional<In<EffectReactions>> reactions_;  // only if force effects act on free bodies
   std::optional<BodyEffects> body_effects_;       // only if they act on free bodies
   std::shared_ptr<const World> world_;
@@ -80,6 +83,7 @@ class HapticRateModule final : public Module, public PluginHost {
   std::vector<Wait> waits_;           // by body
   BoundedList<Entry> entries_;
   std::vector<Group> groups_;  // by least entry
+  std::uint64_t copied_ = 0;   // version of the object state that shown_objects_ was copied from
   double now_ = 0;             // [s]
 };
 

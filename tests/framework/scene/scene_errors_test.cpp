@@ -136,6 +136,8 @@ const Slip kMeaning[] = {
     {"WatchdogUnderTwoPeriods", 222, "watchdog_ms=\"20\"", "@watchdog_ms=\"9.9\"",
      "at least two periods of the dynamics, found 9.9 ms at 200 Hz\nwrite watchdog_ms=\"10\" or more"},
     {"DynamicsThatHoldsNothing", 223, "dynamics=\"200\"", "@dynamics=\"10\"", "20 Hz or more"},
+    {"HapticRateOfTheEnginesSolver", 228, "  <materials>",
+     "  <dynamics coupling=\"haptic_rate\" @solver=\"direct\"/><materials>", "auto, newton, small_steps"},
     {"TwoOrientations", 211, "euler_deg=\"0 0 90\"", "euler_deg=\"0 0 90\" @quat=\"1 0 0 0\"", "both"},
     {"ZeroQuatOfAShape", 212, "<cylinder radius", "<cylinder @quat=\"0 0 0 0\" radius", "zero"},
     {"TwoOrientationsOfAShape", 211, "<cylinder radius", "<cylinder euler_deg=\"0 0 90\" @quat=\"1 0 0 0\" radius",

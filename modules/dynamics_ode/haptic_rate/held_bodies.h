@@ -1,11 +1,10 @@
 #pragma once
-#include <algorithm>
 #include <cstdint>
 
 #include "framework/core/exchange/bounded_list.h"
 #include "framework/core/state/object_state.h"
 
-namespace presa {
+namespace presa::ode {
 
 /// A body that the haptic thread moves, at HeldBodies::time.
 struct HeldBody {
@@ -28,9 +27,8 @@ struct HeldBody {
   }
 };
 
-/// Bodies that the haptic thread moves at its own rate while fingers hold them, with what stands on them or holds them:
-/// `<dynamics coupling="haptic_rate">`. Readers on the haptic thread take these poses instead of the Object State's.
-/// Written by: haptic thread, before the tick's forces are rendered.
+/// Bodies that the haptic thread moves at its own rate while fingers hold them, with what stands on them or holds them,
+/// for the dynamics to follow. Written by: haptic thread, before the tick's forces are rendered.
 struct HeldBodies {
   double time = 0;               ///< [s]
   BoundedList<HeldBody> bodies;  ///< each at most once
@@ -39,14 +37,10 @@ struct HeldBodies {
   /// What the steps of these bodies counted: impulses of fingers, contacts, energy, faults. Holds no bodies.
   ObjectState counted;
 
-  const HeldBody* find(std::int32_t body) const noexcept {
-    const auto* found = std::find_if(bodies.begin(), bodies.end(), [&](const HeldBody& b) { return b.body == body; });
-    return found == bodies.end() ? nullptr : found;
-  }
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return bodies.roomBytes() + counted.roomBytes(); }
 };
 
 inline constexpr const char* kHeldBodiesPort = "held_bodies";
 
-}  // namespace presa
+}  // namespace presa::ode

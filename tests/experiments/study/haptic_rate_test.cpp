@@ -1,0 +1,302 @@
+// Bodies that the haptic thread moves while fingers hold them: taken over and given back without a step, groups as a
+// whole, and nothing of it in a run that does not ask.
+#include <gtest/gtest.h>
+
+#include "experiments/study/prescribed_finger.h"
+#include "framework/session/load_world.h"
+#include "framework/session/session.h"
+#include "modules/dynamics_ode/haptic_rate/gentle_return.h"
+#include "modules/dynamics_ode/haptic_rate/held_bodies.h"
+#include "tests/support/guarded_steps.h"
+
+namespace presa::held {
+namespace {
+
+constexpr double kHalf = 0.02, kRadius = 0.008, kDepth = 0.002, kTick = 0.001;  // [m, m, m, s]
+
+/// Sees the bodies as they are shown, and those that the haptic thread moves.
+class HeldEye final : public Module {
+ public:
+  HeldEye() : Module("held_eye", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override {
+    if (look) look(tick);
+  }
+  In<ObjectState> shown{*this, kShownObjectsPort};
+  In<ode::HeldBodies> held{*this, ode::kHeldBodiesPort};
+  In<ContactExchange> contact{*this, "contact_exchange"};
+  std::function<void(const Tick&)> look;
+};
+
+/// Free cubes of 40 mm and 0.1 kg at these x, on a floor or in free space.
+std::string cubesXml(const std::vector<double>& at, bool floor, int max_held = 3) {
+  const std::string box = "<box size=\"0.04 0.04 0.04\"/>";
+  std::string xml =
+      R"(<scene version="1.0" name="cubes"><world gravity="0 0 )" + std::string(floor ? "-9.81" : "0") +
+      R"("/><dynamics coupling="haptic_rate" max_held=")" + std::to_string(max_held) +
+      R"("/><materials><material name="skin" stiffness="2000" damping="2"><friction static="0.8"/></material></materials>)";
+  if (floor) {
+    xml +=
+        R"(<body name="floor" fixed="true" material="skin" pos="0 0 -0.05"><physics><box size="4 4 0.1"/></physics></body>)";
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    xml += "<body name=\"cube" + std::to_string(i) + "\" material=\"skin\" pos=\"" + std::to_string(at[i]) +
+           " 0 0.02\"><haptic>" + box + "</haptic><physics mass=\"0.1\">" + box + "</physics></body>";
+  }
+  return xml +
+         R"(<devices><device role="thumb" fingertip_radius="0.008"><limits force="100" force_rate="100000"/></device>
+    <device role="index" fingertip_radius="0.008"><limits force="100" force_rate="100000"/></device></devices></scene>)";
+}
+
+/// A session of that scene whose fingertips follow these paths.
+struct Bench {
+  Bench(const std::string& xml, const std::vector<PrescribedFinger::Path>& paths) {
+    Diagnostics diagnostics;
+    RunOptions options;
+    options.bus = BusSettings{.network = "none"};
+    Loaded loaded = loadWithoutDevices({xml, "cubes.xml",
+                                        R"(<rig version="1.0" name="desk"><device role="thumb" driver="scripted"/>
+                                           <device role="index" driver="scripted"/></rig>)"},
+                                       options, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    Session::Options session_options;
+    for (const auto& path : paths) session_options.devices.push_back(std::make_unique<PrescribedFinger>(path));
+    auto made = std::make_unique<HeldEye>();
+    eye = made.get();
+    session_options.more.push_back(std::move(made));
+    session.emplace(std::move(loaded), control, std::move(session_options));
+  }
+  const BodyMotion& cube(std::size_t i) const { return eye->shown->bodies[i]; }
+  RunControl control;
+  HeldEye* eye = nullptr;
+  std::optional<Session> session;
+};
+
+double smooth(double time, double begin, double end) {
+  const double s = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+/// Differentiates a path.
+PrescribedFinger::Path along(std::function<Vec3(double)> place) {
+  return [place = std::move(place)](double t) {
+    constexpr double kStep = 1e-6;
+    return PrescribedFinger::State{place(t), (place(t + kStep) - place(t - kStep)) / (2 * kStep)};
+  };
+}
+
+/// Thumb (-1) and index (1) close on a cube at the origin, carry it along y from 0.5 s on at 0.1 m/s, open at 1.2 s
+/// and close again at 1.6 s where it has flown meanwhile.
+PrescribedFinger::Path carrying(double side) {
+  return along([side](double t) {
+    const double gap = 0.003 - (0.003 + kDepth) * (smooth(t, 0.05, 0.3) - smooth(t, 1.2, 1.25) + smooth(t, 1.6, 1.7));
+    const double y = t < 0.7 ? 0.1 * 0.2 * std::pow(std::max(0.0, t - 0.5) / 0.2, 2) / 2 : 0.01 + 0.1 * (t - 0.7);
+    return Vec3(side * (kHalf + kRadius + gap), y, 0.02);
+  });
+}
+
+/// They lift it by 0.3 m until 1.1 s and open at 1.2 s.
+PrescribedFinger::Path lifting(double side) {
+  return along([side](double t) {
+    const double gap = 0.003 - (0.003 + kDepth) * (smooth(t, 0.05, 0.3) - smooth(t, 1.2, 1.25));
+    return Vec3(side * (kHalf + kRadius + gap), 0, 0.02 + 0.3 * smooth(t, 0.5, 1.1));
+  });
+}
+
+// In free space a cube that the fingers let go flies on in a straight line: the haptic thread moves it, then both, then
+// the dynamics. Neither its pose nor its velocity has a step, and the tick never allocates, locks or calls the system.
+TEST(HeldAtHapticRate, ABodyComesAndGoesWithoutAStep) {
+  Bench bench(cubesXml({0}, false), {carrying(-1), carrying(1)});
+  std::optional<BodyMotion> before;
+  double off_path = 0, jump = 0, flies = 0;
+  std::size_t held = 0, given_back = 0, free = 0;
+  bench.eye->look = [&](const Tick& tick) {
+    const BodyMotion& now = bench.cube(0);
+    const auto& bodies = bench.eye->held->bodies;
+    const bool touched = bench.eye->contact->fingers[0].mode != ContactMode::kNone;
+    held += bodies.size() == 1 && bodies[0].phase == ode::HeldBody::Phase::kHeld ? 1 : 0;
+    given_back += bodies.size() == 1 && bodies[0].phase == ode::HeldBody::Phase::kGivenBack ? 1 : 0;
+    free += bodies.empty() ? 1 : 0;
+    const Vec3 p = bench.eye->shown->poseAt(0, tick.time).p;
+    BodyMotion moved = now;
+    moved.X_WB_end.p = p;
+    if (before && !touched && tick.time > 1.3 && tick.time < 1.6) {
+      off_path = std::max(off_path, (p - before->X_WB_end.p - kTick * now.v_WB).norm());
+      jump = std::max(jump, (now.v_WB - before->v_WB).norm());
+      flies = now.v_WB.y();
+    }
+    before = moved;
+  };
+  test::GuardedSteps steps(*bench.session);
+  steps.run(2500);
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
+  EXPECT_EQ(steps.violation(RateGroup::kDynamics), "");
+  EXPECT_NEAR(flies, 0.1, 0.01);
+  EXPECT_LT(off_path, 1e-9);
+  EXPECT_LT(jump, 1e-6);
+  EXPECT_EQ(bench.eye->held->taken, 2U);
+  EXPECT_GT(held, 1500U);
+  EXPECT_NEAR(static_cast<double>(given_back), 1000 * ode::GentleReturn::kTime, 2);
+  EXPECT_GT(free, 300U);
+  // caught again: still in the fingers, and at their speed
+  EXPECT_EQ(bench.eye->contact->fingers[0].mode, ContactMode::kStick);
+  EXPECT_NEAR(bench.cube(0).v_WB.y(), 0.1, 1e-3);
+}
+
+// A cube that falls out of the fingers goes back to dynamics of 125 Hz, whose steps are 8 ms long and whose Euler steps
+// fall faster than those of a tick. From tick to tick its velocity changes by gravity over such a step at most, and by
+// the way back of some 0.3 mm within 50 ms.
+TEST(HeldAtHapticRate, AFallingBodyIsGivenBackSmoothly) {
+  constexpr double kStep = 0.008, kGravity = 9.81;
+  std::string xml = cubesXml({0}, true);
+  xml.insert(xml.find("<dynamics"), "<rates haptic=\"1000\" dynamics=\"125\"/>");
+  Bench bench(xml, {lifting(-1), lifting(1)});
+  std::vector<double> z;
+  z.reserve(1000);
+  std::size_t returning = 0;
+  bench.eye->look = [&](const Tick& tick) {
+    const auto& bodies = bench.eye->held->bodies;
+    returning += bodies.size() == 1 && bodies[0].phase == ode::HeldBody::Phase::kGivenBack ? 1 : 0;
+    if (tick.time > 1.26 && tick.time < 1.43) z.push_back(bench.eye->shown->poseAt(1, tick.time).p.z());
+  };
+  test::GuardedSteps steps(*bench.session);
+  steps.run(1440);
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
+  EXPECT_GT(returning, 40U);
+  double worst = 0;
+  for (std::size_t i = 2; i < z.size(); ++i) worst = std::max(worst, std::abs(z[i] - 2 * z[i - 1] + z[i - 2]));
+  EXPECT_LT(worst, 1.3 * kGravity * kStep * kTick);
+  EXPECT_LT(z.back(), z.front() - 0.15);
+}
+
+/// A finger beside the first of some cubes pushes it along x at 50 mm/s; the other one stays away.
+std::vector<PrescribedFinger::Path> pushing() {
+  return {[](double t) {
+            const double x = -kHalf - kRadius - 0.003 + 0.05 * t;
+            return PrescribedFinger::State{Vec3(x, 0, 0.02), Vec3(0.05, 0, 0)};
+          },
+          [](double) {
+            return PrescribedFinger::State{Vec3(0, 1, 1), Vec3::Zero()};
+          }};
+}
+
+struct Pushed {
+  std::uint64_t taken = 0, too_many = 0;
+  std::size_t most = 0;       // held at once
+  double force_step = 0;      // of the finger, in a tick [N]
+  double pose_step = 0;       // beyond the way at the velocity shown, of any cube in a tick [m]
+  std::vector<double> end_x;  // [m]
+};
+
+Pushed push(const std::vector<double>& at, int max_held, double seconds) {
+  Bench bench(cubesXml(at, true, max_held), pushing());
+  Pushed pushed;
+  std::vector<Vec3> last(at.size());
+  Vec3 force = Vec3::Zero();
+  bench.eye->look = [&](const Tick& tick) {
+    const auto& held = bench.eye->held->bodies;
+    pushed.most = std::max(pushed.most, static_cast<std::size_t>(std::count_if(held.begin(), held.end(), [](auto& one) {
+                             return one.phase == ode::HeldBody::Phase::kHeld;
+                           })));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const Vec3 p = bench.eye->shown->poseAt(static_cast<std::int32_t>(i + 1), tick.time).p;
+      if (tick.index > 10) pushed.pose_step = std::max(pushed.pose_step, (p - last[i]).norm());
+      last[i] = p;
+    }
+    const Vec3& f = bench.eye->contact->fingers[0].f_H_W;
+    pushed.force_step = std::max(pushed.force_step, (f - force).norm());
+    force = f;
+  };
+  test::GuardedSteps steps(*bench.session);
+  steps.run(static_cast<std::uint64_t>(1000 * seconds));
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
+  EXPECT_EQ(bench.eye->shown->faults, 0U);
+  pushed.taken = bench.eye->held->taken;
+  pushed.too_many = bench.eye->held->too_many;
+  for (const Vec3& p : last) pushed.end_x.push_back(p.x());
+  return pushed;
+}
+
+// Three cubes in contact are taken over together when a finger touches the first; of four none is.
+TEST(HeldAtHapticRate, AnIslandIsTakenAsAWholeOrNotAtAll) {
+  const Pushed three = push({0, 0.04, 0.08}, 3, 1);
+  EXPECT_EQ(three.taken, 3U);
+  EXPECT_EQ(three.too_many, 0U);
+  EXPECT_EQ(three.most, 3U);
+  const Pushed four = push({0, 0.04, 0.08, 0.12}, 3, 1);
+  EXPECT_EQ(four.taken, 0U);
+  EXPECT_EQ(four.most, 0U);
+  // both rows have gone the way of the fingertip, less the depth of its spring
+  EXPECT_NEAR(three.end_x[0], 0.047, 0.002);
+  EXPECT_NEAR(four.end_x[0], 0.047, 0.002);
+}
+
+// Cubes 10 mm apart join the group one by one. The fourth one is too many: the group goes back, and no force or pose jumps
+// by more than the impact of one cube on another explains: 0.05 m/s, and k times the way of the finger in a tick.
+TEST(HeldAtHapticRate, AGroupThatGrowsTooLargeGoesBackAsAWhole) {
+  const Pushed pushed = push({0, 0.05, 0.1, 0.15}, 3, 1);
+  EXPECT_EQ(pushed.most, 3U);
+  EXPECT_GE(pushed.too_many, 1U);
+  EXPECT_LT(pushed.pose_step, 2 * 0.05 * kTick);
+  EXPECT_LT(pushed.force_step, 2 * 2000 * 0.05 * kTick + 0.05);
+  EXPECT_NEAR(pushed.end_x[0], 0.047, 0.002);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(pushed.end_x[i] - pushed.end_x[i - 1], 0.0399) << i;
+}
+
+/// The plan of a shipped scene.
+Plan planOf(const std::string& coupling) {
+  Diagnostics diagnostics;
+  const Loaded loaded =
+      loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/cube.xml", "", {"dynamics/coupling=" + coupling}}, {},
+                diagnostics);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  return loaded.plan;
+}
+
+TEST(HeldAtHapticRate, ItsModuleIsInTheGraphOnlyWhereNamed) {
+  EXPECT_TRUE(planOf("haptic_rate").has("haptic_rate"));
+  EXPECT_FALSE(planOf("soft").has("haptic_rate"));
+  EXPECT_FALSE(planOf("averaged").has("haptic_rate"));
+}
+
+// The whole script of a scene in which the haptic thread moves four bodies: no tick allocates.
+TEST(HeldAtHapticRate, NoTickOfTheTrayAllocates) {
+  Diagnostics diagnostics;
+  Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/tea_tray.xml", "", {}}, {}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  RunControl control;
+  Session session(std::move(loaded), control, {});
+  test::GuardedSteps steps(session);
+  steps.run(9700);
+  for (const RateGroup group : {RateGroup::kHaptic, RateGroup::kDynamics})
+    EXPECT_EQ(steps.violation(group), "") << toString(group);
+}
+
+BodyMotion motionAt(const Vec3& p, double turn, const Vec3& v_WB, const Vec3& w_WB) {
+  BodyMotion motion;
+  motion.X_WB_end = {p, Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()))};
+  motion.v_WB = v_WB;
+  motion.w_WB = w_WB;
+  return motion;
+}
+
+// It begins at one motion, ends at the other, and its velocities are the derivatives of its poses.
+TEST(GentleReturn, LeadsFromOneMotionToTheOther) {
+  const BodyMotion from = motionAt({1e-3, 0, 2e-3}, 0.02, {0.1, 0, 0}, {0, 0, 0.5});
+  const BodyMotion to = motionAt({0, 1e-3, 0}, 0, {0, 0.05, 0}, {0, 0, 0});
+  const ode::GentleReturn way(from, to, 2);
+  const BodyMotion begin = way.at(to, 2), end = way.at(to, 2 + ode::GentleReturn::kTime);
+  EXPECT_LT((begin.X_WB_end.p - from.X_WB_end.p).norm(), 1e-15);
+  EXPECT_LT(begin.X_WB_end.q.angularDistance(from.X_WB_end.q), 1e-12);
+  EXPECT_LT((begin.v_WB - from.v_WB).norm() + (begin.w_WB - from.w_WB).norm(), 1e-12);
+  EXPECT_LT((end.X_WB_end.p - to.X_WB_end.p).norm() + (end.v_WB - to.v_WB).norm(), 1e-14);
+  EXPECT_TRUE(way.isOver(2 + ode::GentleReturn::kTime + 1e-9));
+  constexpr double kStep = 1e-7;
+  for (double t = 2.005; t < 2.05; t += 0.005) {
+    const BodyMotion a = way.at(to, t - kStep), b = way.at(to, t + kStep);
+    const Vec3 rate = (b.X_WB_end.p - a.X_WB_end.p) / (2 * kStep);
+    EXPECT_LT((rate - (way.at(to, t).v_WB - to.v_WB)).norm(), 1e-6) << t;
+  }
+}
+
+}  // namespace
+}  // namespace presa::held
