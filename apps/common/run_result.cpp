@@ -32,6 +32,7 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   result.solver_fallbacks = monitor.solverFallbacks();
   result.energy_created = monitor.energyCreated();
   result.stopped_short = monitor.stoppedShort();
+  result.too_many_held = monitor.tooManyHeld();
   result.far_lag = monitor.farLag();
   result.simulated_seconds = monitor.simulatedTime();
 }

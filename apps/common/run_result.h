@@ -83,6 +83,7 @@ struct RunResult {
   Recording recording;
   std::vector<std::string> flight_records;  ///< files with the seconds around each fault, if the run was not recorded
   EnergyCreated energy_created;             ///< in the dynamics; NaN: not known
+  std::uint64_t too_many_held = 0;          ///< times that a group was too large for the haptic thread to move
   std::uint64_t stopped_short = 0;          ///< times that a body was stopped short of passing through another
   double far_lag = 0;                  ///< for which bodies out of reach stood still, as the dynamics were late [s]
   std::uint64_t solver_fallbacks = 0;  ///< dynamics steps in which the direct solver gave up on an island

@@ -181,6 +181,8 @@ std::string summaryJson(const RunResult& result) {
   json["energy_created"] = {{"sum_j", known(result.energy_created.sum)},
                             {"worst_step_j", known(result.energy_created.worst_step)}};
   json["stopped_short"] = result.stopped_short;
+  if (result.world->scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate)
+    json["too_many_held"] = result.too_many_held;
   json["far_lag_s"] = result.far_lag;
   json["faults"] = Json::array();
   for (const RunResult::Fault& fault : result.faults)

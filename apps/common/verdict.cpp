@@ -109,6 +109,11 @@ std::vector<std::string> dynamicsSentences(const RunResult& result) {
     all.push_back(std::to_string(result.stopped_short) + (result.stopped_short == 1 ? " time" : " times") +
                   " a body was stopped short of passing through another within a step.");
   }
+  if (result.too_many_held > 0) {
+    all.push_back(std::to_string(result.too_many_held) + (result.too_many_held == 1 ? " time" : " times") +
+                  " a group of bodies in contact was too large for the haptic thread (max_held " +
+                  std::to_string(result.world->scene.dynamics.max_held) + "): it moved at the rate of the dynamics.");
+  }
   if (result.energy_created.sum > kEnergyTold) {
     all.push_back("The dynamics created " + fixed(1e3 * result.energy_created.sum, 1) + " mJ from nothing, " +
                   fixed(1e3 * result.energy_created.worst_step, 1) + " mJ in the worst step.");

@@ -66,6 +66,7 @@ std::vector<std::string> listStages(const OdeOptions& options) {
 void addCounts(const HeldBodies& held, ObjectState& out) noexcept {
   const ObjectState& counted = held.counted;
   out.held_time = held.time;
+  out.too_many_held = held.too_many;
   out.faults |= counted.faults;
   out.stopped_short += counted.stopped_short;
   out.energy.sum += counted.energy.sum;

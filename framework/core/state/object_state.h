@@ -67,8 +67,8 @@ struct ObjectState {
   std::uint64_t fallback_steps = 0;
   BodyPenetration penetration;
   EnergyCreated energy;
-  /// Steps since the start in which a body was stopped short of passing through another, summed over the bodies.
-  std::uint64_t stopped_short = 0;
+  std::uint64_t stopped_short = 0;  ///< since the start: how often a body was stopped short of passing through another
+  std::uint64_t too_many_held = 0;  ///< how often a group of bodies was too large for the haptic thread to move
   double held_time = -1;  ///< of the newest bodies moved by the haptic thread that this state knows [s]; -1: none
   double far_lag = 0;  ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].

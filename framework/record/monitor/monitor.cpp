@@ -85,7 +85,7 @@ struct Monitor::Impl {
   ActionReaction reaction;
   std::uint64_t solver_fallbacks = 0;
   EnergyCreated energy_created;
-  std::uint64_t stopped_short = 0;
+  std::uint64_t stopped_short = 0, too_many_held = 0;
   double far_lag = 0;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
@@ -236,6 +236,7 @@ void Monitor::Impl::observe(const HapticSample& sample) noexcept {
     solver_fallbacks = state->fallback_steps;
     energy_created = state->energy;
     stopped_short = state->stopped_short;
+    too_many_held = state->too_many_held;
     far_lag = state->far_lag;
   }
   sumObjects(tick, contact, state, fresh);
@@ -269,6 +270,7 @@ double Monitor::objectFaultTime() const noexcept { return impl_->object_fault_ti
 std::uint64_t Monitor::solverFallbacks() const noexcept { return impl_->solver_fallbacks; }
 const EnergyCreated& Monitor::energyCreated() const noexcept { return impl_->energy_created; }
 std::uint64_t Monitor::stoppedShort() const noexcept { return impl_->stopped_short; }
+std::uint64_t Monitor::tooManyHeld() const noexcept { return impl_->too_many_held; }
 double Monitor::farLag() const noexcept { return impl_->far_lag; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 

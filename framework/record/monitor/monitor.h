@@ -95,6 +95,8 @@ class Monitor final : public HapticObserver {
   const EnergyCreated& energyCreated() const noexcept;
   /// Dynamics steps in which a body was stopped short of passing through another, summed over the bodies.
   std::uint64_t stoppedShort() const noexcept;
+  /// How often a group of bodies was too large for the haptic thread to move.
+  std::uint64_t tooManyHeld() const noexcept;
   double farLag() const noexcept;  ///< ObjectState::far_lag [s]
 
  private:

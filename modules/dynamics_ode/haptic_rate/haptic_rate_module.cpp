@@ -156,7 +156,14 @@ void HapticRateModule::touch(std::int32_t body) noexcept {
   if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
   Entry* entry = find(i);
   const bool moved = entry != nullptr && entry->held.phase == HeldBody::Phase::kHeld;
-  if (!moved && now_ >= waits_[i].until && takeIsland(i, 0)) entry = find(i);
+  if (!moved && now_ >= waits_[i].until) {
+    if (takeIsland(i, 0)) {
+      entry = find(i);
+    } else {
+      ++out_.value.too_many;
+      wait(i);
+    }
+  }
   if (entry != nullptr) entry->finger = true;
 }
 
@@ -240,9 +247,14 @@ void HapticRateModule::giveBack(std::size_t group) noexcept {
   for (Entry& entry : entries_) {
     if (entry.held.phase != HeldBody::Phase::kHeld || entry.group != group) continue;
     leave(entry);
-    Wait& wait = waits_[index(entry.held.body)];
-    wait = {now_ + wait.next, std::min(2 * wait.next, kLastWait)};
+    wait(index(entry.held.body));
   }
+}
+
+// Leaves body `i` to the dynamics for a while, twice as long each time.
+void HapticRateModule::wait(std::size_t i) noexcept {
+  Wait& wait = waits_[i];
+  wait = {now_ + wait.next, std::min(2 * wait.next, kLastWait)};
 }
 
 void HapticRateModule::leaveUntouched() noexcept {

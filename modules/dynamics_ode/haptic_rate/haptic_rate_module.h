@@ -65,6 +65,7 @@ class HapticRateModule final : public Module, public PluginHost {
   void growGroups() noexcept;
   void leave(Entry& entry) noexcept;
   void giveBack(std::size_t group) noexcept;
+  void wait(std::size_t body) noexcept;
   void leaveUntouched() noexcept;
   void write() noexcept;
   void show() noexcept;

@@ -33,7 +33,7 @@ struct HeldBodies {
   double time = 0;               ///< [s]
   BoundedList<HeldBody> bodies;  ///< each at most once
   std::uint64_t taken = 0;       ///< since the start: bodies taken over from the dynamics
-  std::uint64_t too_many = 0;    ///< since the start: how often a group was given back because it grew too large
+  std::uint64_t too_many = 0;    ///< since the start: how often a group was too large: not taken over, or given back
   /// What the steps of these bodies counted: impulses of fingers, contacts, energy, faults. Holds no bodies.
   ObjectState counted;
 

@@ -4,6 +4,7 @@
 
 #include "experiments/study/prescribed_finger.h"
 #include "framework/session/load_world.h"
+#include "framework/session/run.h"
 #include "framework/session/session.h"
 #include "modules/dynamics_ode/haptic_rate/gentle_return.h"
 #include "modules/dynamics_ode/haptic_rate/held_bodies.h"
@@ -224,6 +225,7 @@ TEST(HeldAtHapticRate, AnIslandIsTakenAsAWholeOrNotAtAll) {
   EXPECT_EQ(three.most, 3U);
   const Pushed four = push({0, 0.04, 0.08, 0.12}, 3, 1);
   EXPECT_EQ(four.taken, 0U);
+  EXPECT_GE(four.too_many, 1U);
   EXPECT_EQ(four.most, 0U);
   // both rows have gone the way of the fingertip, less the depth of its spring
   EXPECT_NEAR(three.end_x[0], 0.047, 0.002);
@@ -240,6 +242,23 @@ TEST(HeldAtHapticRate, AGroupThatGrowsTooLargeGoesBackAsAWhole) {
   EXPECT_LT(pushed.force_step, 2 * 2000 * 0.05 * kTick + 0.05);
   EXPECT_NEAR(pushed.end_x[0], 0.047, 0.002);
   for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(pushed.end_x[i] - pushed.end_x[i - 1], 0.0399) << i;
+}
+
+// Against the clock, on three threads: for the thread sanitizer, and for what the two worlds of ODE share.
+TEST(HeldAtHapticRate, TwoWorldsStepBesideEachOther) {
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.realtime = true;
+  options.duration = 3;
+  options.bus = BusSettings{.network = "none"};
+  Loaded loaded =
+      loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/tea_tray.xml", "", {}}, options, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  RunControl control;
+  presa::Run run(std::move(loaded), control, {});
+  run.execute();
+  EXPECT_EQ(run.monitor().objectFaults(), 0U);
+  for (const FingerSummary& finger : run.monitor().fingers()) EXPECT_GT(finger.max_normal_force, 1);
 }
 
 /// The plan of a shipped scene.
