@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "experiments/stability/bodies.h"
 #include "experiments/stability/cases.h"
@@ -93,8 +94,12 @@ std::vector<Finding> carryTray(int axis, const Method& method) {
   felt.curves = {decimated(std::move(shown))};
   // k times the way of the tray in a tick, at the fastest, twice: the springs give way by some of it
   const double fastest = 2 * 3.14159 * kFrequency * kAmplitude;
-  return {felt, finding("force step", step, "N", 2 * 3000 * fastest * 0.001, "no force jumps when bodies change hands"),
-          finding("sliding on the tray", 1000 * slid, "mm", 0.1, "friction carries four times this acceleration")};
+  std::vector<Finding> findings{
+      finding("force step", step, "N", 2 * 3000 * fastest * 0.001, "no force jumps when bodies change hands"),
+      finding("sliding on the tray", 1000 * slid, "mm", 0.1, "friction carries four times this acceleration")};
+  // four bodies are too many for three: the dynamics move them, and say velocities at the end of a step of 5 ms
+  if (run.world().scene.dynamics.max_held >= service.bodies.size()) findings.insert(findings.begin(), felt);
+  return findings;
 }
 
 }  // namespace
@@ -113,8 +118,6 @@ Case make() {
       Trial trial;
       trial.parameters = {{"along", std::string(1, "xyz"[axis])}, {"held together", std::to_string(max_held)}};
       trial.method = kPresa;
-      // four bodies are too many for three: the dynamics move them, and say velocities at the end of a step of 5 ms
-      if (max_held < 4) trial.expected = Verdict::kDrift;
       trial.run = [=] { return carryTray(axis, hapticRate(max_held)); };
       trial.quick = axis == 1;
       result.trials.push_back(std::move(trial));

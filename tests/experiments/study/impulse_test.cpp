@@ -21,7 +21,7 @@ TEST_P(Impulse, RenderedIsGiven) {
 INSTANTIATE_TEST_SUITE_P(Of, Impulse,
                          testing::Values("config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml",
                                          "config/scenes/stylus_on_cube.xml", "config/scenes/tea_tray.xml",
-                                         "experiments/slip_reaction/scene.xml",
+                                         "config/scenes/cup_and_ball.xml", "experiments/slip_reaction/scene.xml",
                                          "experiments/stability/scenes/grasp_shaken.xml",
                                          "experiments/stability/scenes/endurance.xml",
                                          "experiments/stability/scenes/block_tower.xml",
