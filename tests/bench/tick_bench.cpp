@@ -14,13 +14,16 @@ namespace {
 
 // Cost of the whole haptic tick of two fingers (devices, rendering, output stages, monitor) in a shipped scene's ten
 // seconds of reach, lift, hold and drop. Percentiles are over the ticks of one run.
-void BM_HapticTickOfScene(benchmark::State& state, const char* scene) {
+void BM_HapticTickOfScene(benchmark::State& state, const char* scene, const char* coupling = "soft") {
   constexpr std::uint64_t kTicks = 10'000;
   std::vector<std::int64_t> ticks;
   for (auto _ : state) {
     state.PauseTiming();
     Diagnostics diagnostics;
-    Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene, "", {}}, {}, diagnostics);
+    Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene,
+                               "",
+                               {std::string("dynamics/coupling=") + coupling}},
+                              {}, diagnostics);
     if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
     const RateTable rates(loaded.world->scene.rates);
     RunControl control;
@@ -45,6 +48,13 @@ void BM_HapticTickOfScene(benchmark::State& state, const char* scene) {
 }
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, cube, "cube.xml")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, pinch_and_lift, "pinch_and_lift.xml")->Unit(benchmark::kMillisecond);
+// The haptic thread moves what the fingers hold: one body, two, four.
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, cube_held, "cube.xml", "haptic_rate")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, cup_and_ball, "cup_and_ball.xml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, cup_and_ball_held, "cup_and_ball.xml", "haptic_rate")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray, "tea_tray.xml")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray_held, "tea_tray.xml", "haptic_rate")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace presa
