@@ -41,7 +41,7 @@ struct BodyEffectWrench {
 };
 
 /// A force and a torque that the dynamics applies to bodies: drag, buoyancy, a spring to the world, a fan. One object per element of the
-/// scene. An element in a <body> acts on that body, one of the scene on every free body.
+/// scene, and with the coupling haptic_rate a second one, on the haptic thread, for the bodies that it moves. An element in a <body> acts on that body, one of the scene on every free body.
 class BodyEffect {
  public:
   virtual ~BodyEffect() = default;
@@ -49,7 +49,7 @@ class BodyEffect {
   /// have is zero), all numbers finite, the rates not negative. Otherwise the effect is off from then on, the forces on all fingers fade to
   /// zero, and the fault names the element. Called for each awake body in each sub-step; for a sleeping one once per step, at rest: it
   /// wakes when its wrench is not that of the step before.
-  /// Thread: dynamics; no allocation, lock, exception or system call.
+  /// Thread: that of the object, dynamics or haptic; no allocation, lock, exception or system call.
   virtual BodyEffectWrench apply(const BodyEffectInput& input) noexcept = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace presa {
 
-/// The body effects of a scene that act on free bodies, and who broke the contract. Thread: dynamics, except for construction, names and
+/// The body effects of a scene that act on free bodies, and who broke the contract. Thread: the owner's, except for construction, names and
 /// brokenName.
 class BodyEffects {
  public:

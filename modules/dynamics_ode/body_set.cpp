@@ -370,13 +370,18 @@ void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
   }
 }
 
+// Nonblocking: the geometries stay attached.
 void BodySet::freeze(Entry& entry) {
-  detach(entry);
-  moveTo(entry, {entry.begin.p_WCm, entry.begin.q_WB});
-  entry.frozen = true;
+  setPose(entry, {entry.begin.p_WCm, entry.begin.q_WB});
+  dBodySetLinearVel(entry.body, 0, 0, 0);
+  dBodySetAngularVel(entry.body, 0, 0, 0);
+  dBodyDisable(entry.body);
+  entry.enabled = false;
+  entry.still = entry.frozen = true;
 }
 
 void BodySet::put(std::size_t i) {
+  if (bodies_[i].frozen) return;
   const Pose X_WCm = centrePose(i);
   detach(bodies_[i]);
   moveTo(bodies_[i], X_WCm);

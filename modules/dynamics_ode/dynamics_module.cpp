@@ -114,6 +114,7 @@ void DynamicsModule::start() {
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
   bodies_->makeRoom(fingers_.sized());
+  if (reactions_) bodies_->makeRoom(reactions_->sized());
   bodies_->write(0, objects_.value);
 }
 
@@ -126,7 +127,7 @@ void DynamicsModule::setSnapConstraints() noexcept {
 // A held body stands where it will be at the end of the step. One that leaves moves on from where it is now.
 void DynamicsModule::follow(const HeldBodies& held, const Tick& tick) noexcept {
   constexpr double kOldest = 0.02;  // a body whose pose is older stands still [s]
-  const double age = std::clamp(tick.time - held.time, 0.0, kOldest);
+  const double age = std::clamp(tick.time - held.time, -kOldest, kOldest);  // negative in a late step
   for (const HeldBody& one : held.bodies) {
     const auto body = static_cast<std::size_t>(one.body);
     if (one.phase == HeldBody::Phase::kHeld) {

@@ -2,6 +2,11 @@
 
 namespace presa::ode {
 
+void EffectForces::makeRoom(std::size_t bodies) {
+  given_.resize(bodies);
+  forces_.reserve(bodies);
+}
+
 void EffectForces::read(const EffectReactions& reactions, double period, BodySet& bodies, Sleep* sleep) {
   forces_.clear();
   given_.resize(reactions.bodies.size());

@@ -11,6 +11,8 @@ namespace presa::ode {
 /// the mean force over the step is the increment of the impulse divided by the period.
 class EffectForces {
  public:
+  /// Allocates for so many bodies. Not called: the first steps allocate.
+  void makeRoom(std::size_t bodies);
   /// Call before a step of `period` [s]; `sleep` may be null. Wakes the bodies that got an impulse.
   void read(const EffectReactions& reactions, double period, BodySet& bodies, Sleep* sleep);
   /// Call in each sub-step, after BodySet::resetForces.

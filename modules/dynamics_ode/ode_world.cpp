@@ -323,6 +323,8 @@ void OdeWorld::makeRoom(const ContactExchange& fingers) {
   if (impl_->own_solvers) impl_->own_solvers->makeRoom(std::max(fingers.fingers.size(), fingers.contacts.capacity()));
 }
 
+void OdeWorld::makeRoom(const EffectReactions& reactions) { impl_->effects.makeRoom(reactions.bodies.size()); }
+
 void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
 
 void OdeWorld::addReactions(const EffectReactions& reactions, double period) noexcept {

@@ -50,6 +50,8 @@ class OdeWorld {
   BodyMotion motion(std::size_t i) const noexcept;
   /// Allocates for the fingers and contacts that this exchange has room for. Not called: the first step allocates.
   void makeRoom(const ContactExchange& fingers);
+  /// The same for the bodies that force effects act on.
+  void makeRoom(const EffectReactions& reactions);
   /// Sets the snap constraints from the next step on. Never called: none.
   void setSnapConstraints(const SnapConstraints& snap_constraints);
   /// Sets the mean forces of force effects in the next step: what was added to their impulses since the last call.

@@ -20,10 +20,9 @@ void BM_HapticTickOfScene(benchmark::State& state, const char* scene, const char
   for (auto _ : state) {
     state.PauseTiming();
     Diagnostics diagnostics;
-    Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene,
-                               "",
-                               {std::string("dynamics/coupling=") + coupling}},
-                              {}, diagnostics);
+    Loaded loaded = loadWorld(
+        {std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene, "", {std::string("dynamics/coupling=") + coupling}},
+        {}, diagnostics);
     if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
     const RateTable rates(loaded.world->scene.rates);
     RunControl control;

@@ -55,6 +55,7 @@ void HapticRateModule::start() {
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
   bodies_->makeRoom(fingers_.sized());
+  if (reactions_) bodies_->makeRoom(reactions_->sized());
   for (const std::size_t i : free_) bodies_->hold(i, world_->scene.bodies[i].X_WB, Vec3::Zero(), Vec3::Zero());
   bodies_->writeCounts(out_.value.counted);
 }
@@ -85,10 +86,11 @@ HapticRateModule::Entry* HapticRateModule::find(std::size_t body) noexcept {
   return found == entries_.end() ? nullptr : found;
 }
 
-// The body in the dynamics, with its pose now.
+// The body in the dynamics, at the end of its motion where it is felt.
 BodyMotion HapticRateModule::inDynamics(std::size_t body) const noexcept {
   BodyMotion motion = objects_->bodies[body];
-  motion.X_WB_end = objects_->poseAt(static_cast<std::int32_t>(body), now_);
+  if (world_->scene.haptics.pose != HapticSettings::PoseUse::kHold)
+    motion.X_WB_end = objects_->poseAt(static_cast<std::int32_t>(body), now_);
   return motion;
 }
 
@@ -155,9 +157,8 @@ void HapticRateModule::touch(std::int32_t body) noexcept {
   const std::size_t i = index(body);
   if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
   Entry* entry = find(i);
-  const bool moved = entry != nullptr && entry->held.phase == HeldBody::Phase::kHeld;
-  if (!moved && now_ >= waits_[i].until) {
-    if (takeIsland(i, 0)) {
+  if ((entry == nullptr || !isHeld(*entry)) && now_ >= waits_[i].until) {
+    if (takeIsland(i, {0, now_}) > 0) {
       entry = find(i);
     } else {
       ++out_.value.too_many;
@@ -167,23 +168,28 @@ void HapticRateModule::touch(std::int32_t body) noexcept {
   if (entry != nullptr) entry->finger = true;
 }
 
-// Takes over body `i` with all that it is in contact with, beside `others` of its group. False: they are too many.
-bool HapticRateModule::takeIsland(std::size_t i, std::size_t others) noexcept {
-  const auto with_it = [&](std::size_t j) {
+// Takes over body `i` with all that it is in contact with. Returns the number of bodies; 0: they are too many.
+std::size_t HapticRateModule::takeIsland(std::size_t i, const Joined& to) noexcept {
+  std::size_t count = 0, added = 0;
+  const auto comes = [&](std::size_t j, const Entry* entry) {
     if (j != i && objects_->bodies[j].island != objects_->bodies[i].island) return false;
-    const Entry* entry = find(j);
-    return entry == nullptr || entry->held.phase != HeldBody::Phase::kHeld;
+    return entry == nullptr || !isHeld(*entry);
   };
-  const auto count = static_cast<std::size_t>(std::ranges::count_if(free_, with_it));
-  if (others + count > world_->scene.dynamics.max_held || entries_.size() + count > entries_.capacity()) return false;
   for (const std::size_t j : free_) {
-    if (with_it(j)) take(j);
+    const Entry* entry = find(j);
+    if (!comes(j, entry)) continue;
+    ++count;
+    added += entry == nullptr ? 1 : 0;
   }
-  return true;
+  if (to.size + count > world_->scene.dynamics.max_held || entries_.size() + added > entries_.capacity()) return 0;
+  for (const std::size_t j : free_) {
+    if (comes(j, find(j))) take(j, to);
+  }
+  return count;
 }
 
 // Takes body `i` over as it is shown.
-void HapticRateModule::take(std::size_t i) noexcept {
+void HapticRateModule::take(std::size_t i, const Joined& to) noexcept {
   Entry* entry = find(i);
   const bool leaving = entry != nullptr && entry->held.phase == HeldBody::Phase::kLeaving;
   const BodyMotion motion = leaving ? bodies_->motion(i) : shown(i);
@@ -191,7 +197,8 @@ void HapticRateModule::take(std::size_t i) noexcept {
   if (entry == nullptr) return;  // takeIsland made sure of the room
   *entry = {};
   entry->held = {static_cast<std::int32_t>(i), HeldBody::Phase::kHeld, now_, motion.X_WB_end, motion.v_WB, motion.w_WB};
-  entry->touched = now_;
+  entry->touched = to.touched;
+  entry->group = to.group;
   if (!leaving) bodies_->release(i, motion.X_WB_end, motion.v_WB, motion.w_WB);
   ++out_.value.taken;
 }
@@ -203,32 +210,31 @@ void HapticRateModule::findGroups() noexcept {
     changed = false;
     for (const BodyContact& contact : bodies_->contacts()) {
       Entry *a = find(index(contact.A)), *b = find(index(contact.B));
-      if (a == nullptr || b == nullptr || !moves(*a) || !moves(*b) || a->group == b->group) continue;
+      if (a == nullptr || b == nullptr || !isHeld(*a) || !isHeld(*b) || a->group == b->group) continue;
       a->group = b->group = std::min(a->group, b->group);
       changed = true;
     }
   }
   std::fill(groups_.begin(), groups_.end(), Group{});
   for (const Entry& entry : entries_) {
-    if (!moves(entry)) continue;
+    if (!isHeld(entry)) continue;
     Group& group = groups_[entry.group];
     ++group.size;
     group.touched = group.touched || entry.finger;
   }
 }
 
-// Takes over what a group that fingers hold has met.
+// Takes over what a held group has met, also on its way after the fingers let go.
 void HapticRateModule::growGroups() noexcept {
   for (const BodyContact& contact : bodies_->contacts()) {
     for (const auto& [one, other] : {std::pair(contact.A, contact.B), std::pair(contact.B, contact.A)}) {
       const Entry* holder = find(index(one));
-      if (holder == nullptr || !moves(*holder) || is_free_[index(other)] == 0) continue;
-      const std::size_t group = holder->group;
-      if (!groups_[group].touched || !groups_[group].grows) continue;
-      if (const Entry* met = find(index(other)); met != nullptr && moves(*met)) continue;
-      const std::size_t before = entries_.size();
-      groups_[group].grows = takeIsland(index(other), groups_[group].size);
-      groups_[group].size += entries_.size() - before;
+      if (holder == nullptr || !isHeld(*holder) || is_free_[index(other)] == 0) continue;
+      Group& group = groups_[holder->group];
+      if (const Entry* met = find(index(other)); !group.grows || (met != nullptr && moves(*met))) continue;
+      const std::size_t taken = takeIsland(index(other), {group.size, holder->touched, holder->group});
+      group.grows = taken > 0;
+      group.size += taken;
     }
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -245,7 +251,7 @@ void HapticRateModule::leave(Entry& entry) noexcept {
 void HapticRateModule::giveBack(std::size_t group) noexcept {
   ++out_.value.too_many;
   for (Entry& entry : entries_) {
-    if (entry.held.phase != HeldBody::Phase::kHeld || entry.group != group) continue;
+    if (!isHeld(entry) || entry.group != group) continue;
     leave(entry);
     wait(index(entry.held.body));
   }
@@ -259,7 +265,7 @@ void HapticRateModule::wait(std::size_t i) noexcept {
 
 void HapticRateModule::leaveUntouched() noexcept {
   for (Entry& entry : entries_) {
-    if (entry.held.phase != HeldBody::Phase::kHeld) continue;
+    if (!isHeld(entry)) continue;
     if (groups_[entry.group].touched) {
       entry.touched = now_;
     } else if (now_ - entry.touched > kLetGo) {

@@ -15,10 +15,11 @@
 
 namespace presa::ode {
 
-/// Moves the bodies that fingers hold, and what stands on them, in the haptic tick: object state and the contact
-/// exchange of the last tick in, held bodies and the object state as it is shown out (Harwin and Barrow, section 6.2). A body is taken over from the
-/// dynamics, with all that it is in contact with, when a finger touches it, or when it meets such a body; it is given back
-/// when no finger holds its group for kLetGo, or when the group grows beyond DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
+/// Moves the bodies that fingers hold, and what stands on them, in the haptic tick (Harwin and Barrow, section 6.2). In:
+/// object state, contact exchange of the last tick. Out: held bodies, and the object state as it is shown. A body is
+/// taken over from the dynamics, with all that it is in contact with, when a finger touches it, or when it meets such a
+/// body. It is given back when no finger holds its group for kLetGo, or when the group grows beyond
+/// DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
 class HapticRateModule final : public Module, public PluginHost {
  public:
   HapticRateModule(std::shared_ptr<const World> world, std::uint64_t seed);
@@ -50,6 +51,14 @@ class HapticRateModule final : public Module, public PluginHost {
     bool touched = false, grows = true;
   };
 
+  /// What a body joins that is taken over.
+  struct Joined {
+    std::size_t size = 0;   // bodies of the group so far
+    double touched = 0;     // Entry::touched [s]
+    std::size_t group = 0;  // Entry::group
+  };
+
+  bool isHeld(const Entry& entry) const noexcept { return entry.held.phase == HeldBody::Phase::kHeld; }
   bool moves(const Entry& entry) const noexcept { return entry.held.phase != HeldBody::Phase::kGivenBack; }
   Entry* find(std::size_t body) noexcept;
   BodyMotion inDynamics(std::size_t body) const noexcept;
@@ -59,8 +68,8 @@ class HapticRateModule final : public Module, public PluginHost {
   void completeReturns() noexcept;
   void markTouched(const ContactExchange& fingers) noexcept;
   void touch(std::int32_t body) noexcept;
-  bool takeIsland(std::size_t body, std::size_t others) noexcept;
-  void take(std::size_t body) noexcept;
+  std::size_t takeIsland(std::size_t body, const Joined& to) noexcept;
+  void take(std::size_t body, const Joined& to) noexcept;
   void findGroups() noexcept;
   void growGroups() noexcept;
   void leave(Entry& entry) noexcept;

@@ -143,6 +143,53 @@ TEST(HeldAtHapticRate, ABodyComesAndGoesWithoutAStep) {
   EXPECT_NEAR(bench.cube(0).v_WB.y(), 0.1, 1e-3);
 }
 
+// Fingers that come back while the body is given back take it over again.
+TEST(HeldAtHapticRate, ABodyIsTakenAgainOnItsWayBack) {
+  const auto tapping = [](double side) {
+    return along([side](double t) {
+      const double gap = 0.003 - (0.003 + kDepth) * (smooth(t, 0.05, 0.3) - smooth(t, 1, 1.01) + smooth(t, 1.07, 1.1));
+      return Vec3(side * (kHalf + kRadius + gap), 0, 0.02);
+    });
+  };
+  Bench bench(cubesXml({0}, false), {tapping(-1), tapping(1)});
+  std::size_t returning = 0;
+  bench.eye->look = [&](const Tick&) {
+    const auto& bodies = bench.eye->held->bodies;
+    returning += bodies.size() == 1 && bodies[0].phase == ode::HeldBody::Phase::kGivenBack ? 1 : 0;
+  };
+  test::GuardedSteps steps(*bench.session);
+  steps.run(1300);
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
+  EXPECT_GT(returning, 5U);
+  EXPECT_LT(returning, 45U);
+  EXPECT_EQ(bench.eye->held->taken, 2U);
+  EXPECT_EQ(bench.eye->held->too_many, 0U);
+  ASSERT_EQ(bench.eye->held->bodies.size(), 1U);
+  EXPECT_EQ(bench.eye->held->bodies[0].phase, ode::HeldBody::Phase::kHeld);
+}
+
+// A cube that a finger has flicked against another one gives it half of its momentum: on its way it takes the other over.
+TEST(HeldAtHapticRate, AThrownBodyMeetsAnotherAsInTheDynamics) {
+  constexpr double kSpeed = 0.5, kStop = 0.06;  // of the finger [m/s, m]
+  const auto flick = along(
+      [](double t) { return Vec3(std::min(-kHalf - kRadius - 0.003 + kSpeed * t, kStop - kHalf - kRadius), 0, 0.02); });
+  const auto away = [](double) { return PrescribedFinger::State{Vec3(0, 1, 1), Vec3::Zero()}; };
+  Bench bench(cubesXml({0, kStop + 0.045}, true), {flick, away});
+  double before = 0, after = 0;
+  std::size_t most = 0;
+  bench.eye->look = [&](const Tick&) {
+    most = std::max(most, bench.eye->held->bodies.size());
+    if (after < 0.01) before = bench.cube(1).v_WB.x();
+    after = std::max(after, bench.cube(2).v_WB.x());
+  };
+  test::GuardedSteps steps(*bench.session);
+  steps.run(400);
+  EXPECT_EQ(steps.violation(RateGroup::kHaptic), "");
+  EXPECT_EQ(most, 2U);
+  EXPECT_GT(before, 0.3);
+  EXPECT_NEAR(after, before / 2, 0.05);
+}
+
 // A cube that falls out of the fingers goes back to dynamics of 125 Hz, whose steps are 8 ms long and whose Euler steps
 // fall faster than those of a tick. From tick to tick its velocity changes by gravity over such a step at most, and by
 // the way back of some 0.3 mm within 50 ms.
