@@ -31,5 +31,18 @@ INSTANTIATE_TEST_SUITE_P(Of, Impulse,
                            return path.substr(path.rfind('/') + 1, path.rfind('.') - path.rfind('/') - 1);
                          });
 
+// A simulated subject who grips at a force of its own, measured by encoders of 58 um: at 200 Hz up to 3 %.
+TEST(ImpulseOfASubject, RenderedIsGiven) {
+  for (const char* experiment : {"grip_slip", "slip_reaction"}) {
+    const std::string folder = std::string(PRESA_SOURCE_DIR) + "/experiments/" + experiment;
+    StudyRun run({.scene = folder + "/scene.xml", .rig = folder + "/rig_simulated.xml", .duration = 12});
+    run.run();
+    for (const FingerSummary& finger : run.monitor().fingers()) {
+      EXPECT_GT(finger.reaction.windows, 100U) << experiment;
+      EXPECT_LT(finger.reaction.worst, 0.01) << experiment << " at " << finger.reaction.time << " s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace presa
