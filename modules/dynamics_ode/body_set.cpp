@@ -436,6 +436,10 @@ void BodySet::freezeAll() {
   }
 }
 
+bool BodySet::anyHeld() const noexcept {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const Entry& entry) { return entry.held; });
+}
+
 BodyMotion BodySet::now(std::size_t i) const {
   const Entry& entry = bodies_[i];
   const State state = read(entry);

@@ -105,6 +105,7 @@ class BodySet {
   /// Lets it move on from this pose with these velocities.
   void release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
   bool isHeld(std::size_t i) const noexcept { return bodies_[i].held; }
+  bool anyHeld() const noexcept;
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; only if it moves
 

@@ -9,16 +9,31 @@ BroadPhase::BroadPhase(const BodySet& bodies) {
   pairs_.reserve(16 * bodies.size());
 }
 
+BroadPhase::Bounds BroadPhase::boundsOf(const BodySet& bodies, std::size_t i, double h, double margin) {
+  const auto [box] = bodies.bounds(i);
+  const double wider = bodies.reach(i, h) + margin / 2;
+  return {{box[0] - wider, box[2] - wider, box[4] - wider},
+          {box[1] + wider, box[3] + wider, box[5] + wider},
+          static_cast<std::uint32_t>(i),
+          bodies.awake(i)};
+}
+
+// Of the others only those that come near the bounds of all awake bodies: of thousands at rest, few.
 void BroadPhase::measure(const BodySet& bodies, double h, double margin) {
   bounds_.clear();
+  Bounds all{{dInfinity, dInfinity, dInfinity}, {-dInfinity, -dInfinity, -dInfinity}, 0, true};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies.shapes(i).count == 0) continue;
-    const auto [box] = bodies.bounds(i);
-    const double wider = bodies.reach(i, h) + margin / 2;
-    bounds_.push_back({{box[0] - wider, box[2] - wider, box[4] - wider},
-                       {box[1] + wider, box[3] + wider, box[5] + wider},
-                       static_cast<std::uint32_t>(i),
-                       bodies.awake(i)});
+    if (bodies.shapes(i).count == 0 || !bodies.awake(i)) continue;
+    const Bounds& one = bounds_.emplace_back(boundsOf(bodies, i, h, margin));
+    for (int axis = 0; axis < 3; ++axis) {
+      all.low[axis] = std::min(all.low[axis], one.low[axis]);
+      all.high[axis] = std::max(all.high[axis], one.high[axis]);
+    }
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies.shapes(i).count == 0 || bodies.awake(i)) continue;
+    const Bounds one = boundsOf(bodies, i, h, margin);
+    if (overlap(one, all, 0) && overlap(one, all, 1) && overlap(one, all, 2)) bounds_.push_back(one);
   }
 }
 
@@ -48,10 +63,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::find(const BodySet& bodies, dou
   std::sort(bounds_.begin(), bounds_.end(), [x](const Bounds& a, const Bounds& b) { return a.low[x] < b.low[x]; });
   for (auto a = bounds_.cbegin(); a != bounds_.cend(); ++a) {
     for (auto b = a + 1; b != bounds_.cend() && b->low[x] <= a->high[x]; ++b) {
-      if (!(a->awake || b->awake) || a->low[y] > b->high[y] || b->low[y] > a->high[y] || a->low[z] > b->high[z] ||
-          b->low[z] > a->high[z]) {
-        continue;
-      }
+      if (!(a->awake || b->awake) || !overlap(*a, *b, y) || !overlap(*a, *b, z)) continue;
       pairs_.push_back(std::minmax<std::size_t>(a->body, b->body));
     }
   }

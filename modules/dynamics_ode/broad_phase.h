@@ -25,6 +25,10 @@ class BroadPhase {
     std::uint32_t body;
     bool awake;
   };
+  static Bounds boundsOf(const BodySet& bodies, std::size_t i, double h, double margin);
+  static bool overlap(const Bounds& a, const Bounds& b, int axis) {
+    return a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
+  }
   void measure(const BodySet& bodies, double h, double margin);
   int longestAxis() const;
 

@@ -231,7 +231,7 @@ void OdeWorld::Impl::wakeTouched(const ContactExchange& exchange) {
 // touch next is fresh, too. Decided by the ticks alone, so that a recording replays to the bit.
 void OdeWorld::Impl::pauseFar(const ContactExchange& exchange, double period, bool late) {
   std::fill(held.begin(), held.end(), 0);
-  bool any = false;
+  bool any = bodies.anyHeld();  // by the haptic thread, which takes over what they meet
   forEachTouch(exchange, bodies, [&](std::size_t, const FingerContact&, std::size_t body) {
     held[islands.of(body)] = 1;
     any = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/scene/physics_shapes.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
@@ -17,6 +18,16 @@ OdeOptions optionsOf(const World& world, std::uint64_t seed) {
   options.method.sleeping = false;
   options.seed = seed;
   return options;
+}
+
+/// Radius of a sphere about the body's origin that holds its physics geometry [m].
+double radiusOf(const Body& body, const BodyMeshes& meshes) {
+  Vec3 corner = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0})
+      corner[axis] = std::max(corner[axis], supportOf(body, meshes, side * Vec3::Unit(axis)));
+  }
+  return corner.norm();
 }
 
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
@@ -35,6 +46,9 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
     if (is_free_.back() != 0) free_.push_back(i);
   }
   waits_.resize(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    reaches_.push_back({radiusOf(scene.bodies[i], world_->meshes[i]), scene.bodies[i].X_WB.p});
+  }
   // every finger holds a group at most, and as many may be on their way back
   const std::size_t room = std::min(2 * scene.devices.size() * scene.dynamics.max_held, free_.size());
   entries_ = BoundedList<Entry>(room);
@@ -100,11 +114,22 @@ BodyMotion HapticRateModule::shown(std::size_t body) noexcept {
   return entry == nullptr ? inDynamics(body) : entry->way.at(inDynamics(body), now_);
 }
 
+// Whether body `i` with its origin at p_W can meet a body that the haptic thread moves.
+bool HapticRateModule::isNear(std::size_t i, const Vec3& p_W) const noexcept {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    const double reach = reaches_[i].radius + reaches_[index(entry.held.body)].radius + kMargin;
+    return moves(entry) && (entry.held.X_WB.p - p_W).squaredNorm() < reach * reach;
+  });
+}
+
+// Obstacles that are far from what the haptic thread moves stay where they are, also when they come from afar.
 void HapticRateModule::placeOthers() noexcept {
   for (const std::size_t i : free_) {
+    Reach& reach = reaches_[i];
+    if (!isNear(i, objects_->bodies[i].X_WB_end.p) && !isNear(i, reach.placed)) continue;
     if (const Entry* entry = find(i); entry != nullptr && moves(*entry)) continue;
-    if (objects_->bodies[i].asleep && entries_.empty()) continue;
     const BodyMotion motion = shown(i);
+    reach.placed = motion.X_WB_end.p;
     bodies_->hold(i, motion.X_WB_end, motion.v_WB, motion.w_WB);
   }
 }

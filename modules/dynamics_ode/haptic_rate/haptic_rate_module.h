@@ -32,6 +32,7 @@ class HapticRateModule final : public Module, public PluginHost {
 
  private:
   static constexpr double kLetGo = 0.05;                      // [s]
+  static constexpr double kMargin = 0.05;                     // a body that moves at 10 m/s needs 5 ms for it [m]
   static constexpr double kFirstWait = 0.5, kLastWait = 8.0;  // before a group that was too large is tried again [s]
 
   struct Entry {
@@ -41,6 +42,11 @@ class HapticRateModule final : public Module, public PluginHost {
     GentleReturn way;          // of a body that was given back
     std::size_t group = 0;     // least index of an entry in contact with it
     bool finger = false;       // a finger touches it
+  };
+  /// Of a free body of the scene.
+  struct Reach {
+    double radius = 0;           // of a sphere about its origin that holds its physics geometry [m]
+    Vec3 placed = Vec3::Zero();  // origin, where it stands as an obstacle [m]
   };
   struct Wait {
     double until = 0, next = kFirstWait;  // [s]
@@ -63,6 +69,7 @@ class HapticRateModule final : public Module, public PluginHost {
   Entry* find(std::size_t body) noexcept;
   BodyMotion inDynamics(std::size_t body) const noexcept;
   BodyMotion shown(std::size_t body) noexcept;
+  bool isNear(std::size_t body, const Vec3& p_W) const noexcept;
   void placeOthers() noexcept;
   void readBack() noexcept;
   void completeReturns() noexcept;
@@ -91,6 +98,7 @@ class HapticRateModule final : public Module, public PluginHost {
   std::vector<std::size_t> free_;     // bodies of the scene that are not fixed
   std::vector<char> is_free_;         // by body
   std::vector<Wait> waits_;           // by body
+  std::vector<Reach> reaches_;        // by body
   BoundedList<Entry> entries_;
   std::vector<Group> groups_;  // by least entry
   std::uint64_t copied_ = 0;   // version of the object state that shown_objects_ was copied from

@@ -54,6 +54,24 @@ TEST(LateStep, AHeapThatTakesTooLongWaits) {
   EXPECT_EQ(waits(), 0);
 }
 
+// A body that the haptic thread moves counts as held: what is loose waits for it, though no finger touches a body that
+// the dynamics move.
+TEST(LateStep, AHeapWaitsForWhatTheHapticThreadMoves) {
+  Runner runner(heldAndLoose());
+  const auto moves = [&](bool late) {
+    const Vec3 before = runner[1].X_WB_end.p;
+    runner.bodies.hold(0, {Vec3(0, 0, 0.1 * runner.time), Quat::Identity()}, Vec3(0, 0, 0.1), Vec3::Zero());
+    runner.step({}, kStep, late);
+    return runner[1].X_WB_end.p != before;
+  };
+  EXPECT_TRUE(moves(false));
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(moves(true));
+  int waited = 0;
+  while (!moves(false)) ++waited;
+  EXPECT_EQ(waited, 20);
+  EXPECT_NEAR(runner[0].v_WB.z(), 0.1, 1e-12);
+}
+
 // Where nothing is held no step waits: the world runs slower, and its state is never old.
 TEST(LateStep, WithNothingHeldOnlyLateStepsAreLeftOut) {
   Runner runner(heldAndLoose());
