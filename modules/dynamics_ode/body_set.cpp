@@ -340,6 +340,14 @@ void BodySet::driftRotations(double h) {
   }
 }
 
+void BodySet::makeStill(Entry& entry) {
+  dBodySetLinearVel(entry.body, 0, 0, 0);
+  dBodySetAngularVel(entry.body, 0, 0, 0);
+  dBodyDisable(entry.body);
+  entry.enabled = false;
+  entry.still = true;
+}
+
 // Turns the body into an obstacle that ODE's solvers ignore until take().
 void BodySet::detach(Entry& entry) {
   for (ShapeEntry& shape : shapesOf(entry)) {
@@ -349,11 +357,7 @@ void BodySet::detach(Entry& entry) {
     shape.X_CmG = {toVec3(dGeomGetOffsetPosition(shape.geom)), toQuat(q)};
     dGeomSetBody(shape.geom, nullptr);
   }
-  dBodySetLinearVel(entry.body, 0, 0, 0);
-  dBodySetAngularVel(entry.body, 0, 0, 0);
-  dBodyDisable(entry.body);
-  entry.enabled = false;
-  entry.still = true;
+  makeStill(entry);
 }
 
 void BodySet::setPose(const Entry& entry, const Pose& X_WCm) {
@@ -373,11 +377,8 @@ void BodySet::moveTo(Entry& entry, const Pose& X_WCm) {
 // Nonblocking: the geometries stay attached.
 void BodySet::freeze(Entry& entry) {
   setPose(entry, {entry.begin.p_WCm, entry.begin.q_WB});
-  dBodySetLinearVel(entry.body, 0, 0, 0);
-  dBodySetAngularVel(entry.body, 0, 0, 0);
-  dBodyDisable(entry.body);
-  entry.enabled = false;
-  entry.still = entry.frozen = true;
+  makeStill(entry);
+  entry.frozen = true;
 }
 
 void BodySet::put(std::size_t i) {

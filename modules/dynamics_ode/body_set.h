@@ -214,6 +214,7 @@ class BodySet {
   static Pose poseOf(const Entry& entry, const State& state);
   static bool sane(const State& state);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;
+  static void makeStill(Entry& entry);
   void detach(Entry& entry);
   void moveTo(Entry& entry, const Pose& X_WCm);
   void freeze(Entry& entry);

@@ -145,6 +145,7 @@ void DynamicsModule::step(const Tick& tick) noexcept {
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
   if (held_ && held_->hasValue()) follow(held_->value(), tick);
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.late);
+  if (held_) bodies_->writeIslands(objects_.value);
   if (held_ && held_->hasValue()) addCounts(held_->value(), objects_.value);
 }
 

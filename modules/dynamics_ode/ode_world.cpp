@@ -333,9 +333,12 @@ void OdeWorld::addReactions(const EffectReactions& reactions, double period) noe
 
 void OdeWorld::write(double time, ObjectState& out) noexcept {
   impl_->bodies.write(out);
-  for (std::size_t i = 0; i < out.bodies.size(); ++i) out.bodies[i].island = impl_->islandOf(i);
   out.time_begin = out.time_end = time;
   writeCounts(out);
+}
+
+void OdeWorld::writeIslands(ObjectState& out) const noexcept {
+  for (std::size_t i = 0; i < out.bodies.size(); ++i) out.bodies[i].island = impl_->islandOf(i);
 }
 
 void OdeWorld::writeCounts(ObjectState& out) const noexcept {

@@ -60,6 +60,8 @@ class OdeWorld {
   void use(BodyEffects& effects);
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
+  /// Writes the islands of the last step to the bodies; the other functions leave them out.
+  void writeIslands(ObjectState& out) const noexcept;
   /// Writes everything but bodies and times.
   void writeCounts(ObjectState& out) const noexcept;
 

@@ -60,4 +60,12 @@ void matrixRotation(Quat& q_WB, const Vec3& w_WB, double h) {
   q_WB = Quat(R).normalized();
 }
 
+Vec3 turnBetween(const Quat& from, const Quat& to) {
+  Quat turn = to * from.conjugate();
+  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+  const double sine = turn.vec().norm();
+  if (sine < 1e-12) return 2 * turn.vec();
+  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
+}
+
 }  // namespace presa::ode

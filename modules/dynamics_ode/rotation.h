@@ -17,4 +17,7 @@ void eulerRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inve
 /// tumble. (For body rates I + S h multiplies from the right.)
 void matrixRotation(Quat& q_WB, const Vec3& w_WB, double h);
 
+/// Rotation from `from` to `to` as a rotation vector in W, by the shorter way [rad].
+Vec3 turnBetween(const Quat& from, const Quat& to);
+
 }  // namespace presa::ode

@@ -5,22 +5,14 @@
 #include "modules/dynamics_ode/snap_drive.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {
 namespace {
 
 constexpr double kSamePlace = 1e-4, kSameTurn = 1e-3;  // smaller changes of a target wake nothing [m, rad]
 constexpr double kMayTouch = 0.002;  // distance of bounds within which bodies may lean on each other [m]
-
-/// Rotation from `from` to `to` as a rotation vector in W [rad].
-Vec3 turnBetween(const Quat& from, const Quat& to) {
-  Quat turn = to * from.conjugate();
-  if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
-  const double sine = turn.vec().norm();
-  if (sine < 1e-12) return 2 * turn.vec();
-  return turn.vec() * (2 * std::atan2(sine, turn.w()) / sine);
-}
 
 /// Sets the three axes of a motor, the first along `way`, and adds them to `driven`. `set_axis`, `set_param`: ODE's
 /// functions for this kind of motor.

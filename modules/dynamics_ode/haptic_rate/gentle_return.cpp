@@ -1,17 +1,11 @@
 #include "modules/dynamics_ode/haptic_rate/gentle_return.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {
 namespace {
-
-/// Rotation vector of a quaternion, by the shorter way [rad].
-Vec3 vectorOf(Quat q) {
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  const double sine = q.vec().norm();
-  return sine < 1e-12 ? Vec3(2 * q.vec()) : Vec3(q.vec() * (2 * std::atan2(sine, q.w()) / sine));
-}
 
 Quat quatOf(const Vec3& turn) {
   const double angle = turn.norm();
@@ -24,7 +18,7 @@ GentleReturn::GentleReturn(const BodyMotion& from, const BodyMotion& to, double 
     : begin_(time),
       p_(from.X_WB_end.p - to.X_WB_end.p),
       v_(from.v_WB - to.v_WB),
-      turn_(vectorOf(from.X_WB_end.q * to.X_WB_end.q.conjugate())),
+      turn_(turnBetween(to.X_WB_end.q, from.X_WB_end.q)),
       w_(from.w_WB - to.w_WB) {}
 
 // Hermite's cubics: value 1 and slope 0, value 0 and slope 1 at the begin; both end at zero with slope zero.

@@ -15,7 +15,6 @@ class GentleReturn {
   /// The body at `time`, when the dynamics have it at `to`.
   BodyMotion at(const BodyMotion& to, double time) const;
   bool isOver(double time) const noexcept { return time >= begin_ + kTime; }
-  double offset() const noexcept { return p_.norm(); }  ///< at the begin [m]
 
  private:
   double begin_ = 0;
