@@ -70,6 +70,17 @@ double squaredDistance(const Pose& a, const Pose& b) {
 
 }  // namespace
 
+Grip twoHands(double reach, double half, double height) {
+  Grip grip;
+  for (const double x : {-reach, reach}) {
+    for (const double side : {-1.0, 1.0}) {
+      grip.points.emplace_back(x, side * half, height);
+      grip.normals.emplace_back(side * Vec3::UnitY());
+    }
+  }
+  return grip;
+}
+
 PrescribedFinger::State gripState(const Grip& grip, std::size_t finger, double time) {
   const Ramp close = ramp(time, Grip::kCloseBegin, Grip::kCloseEnd),
              lift = ramp(time, Grip::kLiftBegin, Grip::kLiftEnd);

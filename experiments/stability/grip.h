@@ -26,6 +26,9 @@ struct Grip {
 
   static constexpr double kCloseBegin = 0.05, kCloseEnd = 0.35, kLiftBegin = 0.4, kLiftEnd = 0.9, kMoveBegin = 1.5;
 };
+/// Two hands on a bar along x: thumb (-y) and index (+y) at -reach, then at +reach; the bar is 2 `half` wide, its middle
+/// grasped at `height` [m].
+Grip twoHands(double reach, double half, double height);
 PrescribedFinger::State gripState(const Grip& grip, std::size_t finger, double time);
 DeviceList gripFingers(const Grip& grip);
 

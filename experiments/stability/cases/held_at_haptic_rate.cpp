@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "experiments/stability/cases.h"
 #include "experiments/stability/grip.h"
 #include "experiments/stability/methods.h"
@@ -17,15 +20,9 @@ std::vector<Finding> hold(double frequency, double mass, const Method& method) {
                  method;
   carried.body = "bar";
   carried.stiffness = kStiffness;
-  Grip& grip = carried.grip;
-  for (const double x : {-kReach, kReach}) {
-    for (const double side : {-1.0, 1.0}) {
-      grip.points.emplace_back(x, side * kHalf, kHeight);
-      grip.normals.emplace_back(side * Vec3::UnitY());
-    }
-  }
+  Grip& grip = carried.grip = twoHands(kReach, kHalf, kHeight);
   // 3 m/s^2 at any frequency
-  const double amplitude = 3 / (4 * 9.87 * frequency * frequency);
+  const double amplitude = 3 / std::pow(2 * std::numbers::pi * frequency, 2);
   grip.move = [=](std::size_t, double time) { return shaken(amplitude * Vec3::UnitX(), frequency, time); };
   carried.forces.assign(4, kStiffness * grip.depth);
   carried.oracle = "k depth = " + number(carried.forces[0]) + " N from each finger";

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "experiments/stability/bodies.h"
@@ -37,19 +38,12 @@ struct Balance {
 };
 
 std::vector<Finding> carryTray(int axis, const Method& method) {
-  Grip grip;
+  Grip grip = twoHands(kReach, kHalf, kHeight);
   grip.depth = 0.003;
-  for (const double x : {-kReach, kReach}) {
-    for (const double side : {-1.0, 1.0}) {
-      grip.points.emplace_back(x, side * kHalf, kHeight);
-      grip.normals.emplace_back(side * Vec3::UnitY());
-    }
-  }
   grip.move = [axis](std::size_t, double time) { return shaken(kAmplitude * Vec3::Unit(axis), kFrequency, time); };
   StudyRun run(specOf("tea_tray.xml", std::vector<std::string>{} + method, kEnd), gripFingers(grip));
   const Service service = serviceOf(run.world());
-  const Vec3 weight =
-      run.world().scene.gravity * (service.masses[0] + service.masses[1] + service.masses[2] + service.masses[3]);
+  const Vec3 weight = run.world().scene.gravity * std::accumulate(service.masses.begin(), service.masses.end(), 0.0);
   std::vector<Balance> balances;
   Balance now;
   double worst = 0, step = 0, slid = 0;
@@ -93,7 +87,7 @@ std::vector<Finding> carryTray(int axis, const Method& method) {
   felt.plot_y = "force of the four fingers upward [N]";
   felt.curves = {decimated(std::move(shown))};
   // k times the way of the tray in a tick, at the fastest, twice: the springs give way by some of it
-  const double fastest = 2 * 3.14159 * kFrequency * kAmplitude;
+  const double fastest = 2 * std::numbers::pi * kFrequency * kAmplitude;
   std::vector<Finding> findings{
       finding("force step", step, "N", 2 * 3000 * fastest * 0.001, "no force jumps when bodies change hands"),
       finding("sliding on the tray", 1000 * slid, "mm", 0.1, "friction carries four times this acceleration")};

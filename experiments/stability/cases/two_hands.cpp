@@ -34,13 +34,7 @@ std::vector<Finding> hold(Motion motion, double mass, double stiffness, const Me
                  method;
   carried.body = "bar";
   carried.stiffness = stiffness;
-  Grip& grip = carried.grip;
-  for (const double x : {-kReach, kReach}) {
-    for (const double side : {-1.0, 1.0}) {
-      grip.points.emplace_back(x, side * kHalf, kHeight);
-      grip.normals.emplace_back(side * Vec3::UnitY());
-    }
-  }
+  Grip& grip = carried.grip = twoHands(kReach, kHalf, kHeight);
   grip.move = [motion](std::size_t finger, double time) { return moved(motion, finger, time); };
   carried.forces.assign(4, stiffness * grip.depth);
   carried.oracle = "k depth = " + number(carried.forces[0]) + " N from each finger";
