@@ -83,7 +83,7 @@ std::string lossSentence(const RunResult::Object& object) {
 }
 
 // The bound that action and reaction are held to. A force that changes within a dynamics step, as with the steps of an
-// encoder under a light grip, exceeds it: the dynamics learns of it one step later.
+// encoder under a light grip, exceeds it: the dynamics learn of it one step later.
 constexpr double kImpulseBound = 0.01;
 
 std::optional<std::string> impulseSentence(const RunResult& result) {
@@ -94,9 +94,12 @@ std::optional<std::string> impulseSentence(const RunResult& result) {
   }
   if (worst == nullptr) return std::nullopt;
   const ActionReaction::Result& reaction = worst->summary.reaction;
+  const bool held = result.world->scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
   return "The impulse on the object and the one that " + worst->name + " felt differed by up to " +
-         fixed(100 * reaction.worst, 1) + " % over 0.1 s (until " + fixed(reaction.time, 3) +
-         " s). A higher rate of the dynamics follows the force better.";
+         fixed(100 * reaction.worst, 1) + " % over 0.1 s (until " + fixed(reaction.time, 3) + " s). " +
+         (held ? "The group of bodies was too large for the haptic thread: max_held of <dynamics> sets how many it "
+                 "moves."
+               : "<dynamics coupling=\"haptic_rate\"> gives bodies exactly what fingers feel.");
 }
 
 constexpr double kEnergyTold = 1e-3;  // [J], a grain of rice that falls 5 m

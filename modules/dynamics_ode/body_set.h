@@ -106,6 +106,9 @@ class BodySet {
   void release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB);
   bool isHeld(std::size_t i) const noexcept { return bodies_[i].held; }
   bool anyHeld() const noexcept;
+  /// Whether fingers act on body `i` (default: yes).
+  void setReached(std::size_t i, bool reached) noexcept { bodies_[i].reached = reached; }
+  bool isReached(std::size_t i) const noexcept { return bodies_[i].reached; }
 
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB);  ///< of B's origin; only if it moves
 
@@ -185,6 +188,7 @@ class BodySet {
     bool still = false;                        // an obstacle: frozen, put or held
     bool frozen = false;                       // permanently still after a fault
     bool held = false;                         // still, with its geometries attached
+    bool reached = true;                       // fingers act on it
     bool asleep = false, enabled = true;
     bool paused = false;   // asleep, but with its velocity
     bool rotated = false;  // by the solver of this step

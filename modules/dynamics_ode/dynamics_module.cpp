@@ -6,6 +6,7 @@
 #include "framework/scene/ages.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
+#include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
 namespace {
@@ -115,6 +116,10 @@ void DynamicsModule::start() {
   if (body_effects_) bodies_->use(*body_effects_);
   bodies_->makeRoom(fingers_.sized());
   if (reactions_) bodies_->makeRoom(reactions_->sized());
+  if (held_) {
+    reached_ = held_->sized().refused;
+    for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i) bodies_->setReached(i, false);
+  }
   bodies_->write(0, objects_.value);
 }
 
@@ -140,10 +145,20 @@ void DynamicsModule::follow(const HeldBodies& held, const Tick& tick) noexcept {
   }
 }
 
+// What a finger touches is moved by the haptic thread from its next tick on: an impulse in this step would be given twice.
+void DynamicsModule::leaveFingersTo(const HeldBodies& held) noexcept {
+  for (const std::int32_t body : reached_) bodies_->setReached(index(body), false);
+  reached_ = held.refused;
+  for (const std::int32_t body : reached_) bodies_->setReached(index(body), true);
+}
+
 void DynamicsModule::step(const Tick& tick) noexcept {
   setSnapConstraints();
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
-  if (held_ && held_->hasValue()) follow(held_->value(), tick);
+  if (held_ && held_->hasValue()) {
+    follow(held_->value(), tick);
+    leaveFingersTo(held_->value());
+  }
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.late);
   if (held_) bodies_->writeIslands(objects_.value);
   if (held_ && held_->hasValue()) addCounts(held_->value(), objects_.value);

@@ -31,6 +31,7 @@ class DynamicsModule final : public Module, public PluginHost {
  private:
   void setSnapConstraints() noexcept;
   void follow(const HeldBodies& held, const Tick& tick) noexcept;
+  void leaveFingersTo(const HeldBodies& held) noexcept;
 
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
@@ -38,6 +39,7 @@ class DynamicsModule final : public Module, public PluginHost {
   std::optional<In<EffectReactions>> reactions_;         // only if force effects act on free bodies
   std::optional<In<HeldBodies>> held_;                   // only if the haptic thread moves what fingers hold
   std::vector<double> released_;                         // by body: HeldBody::since when it was taken back
+  BoundedList<std::int32_t> reached_;                    // bodies on which fingers act in this step, with `held_`
   std::optional<BodyEffects> body_effects_;              // only if they act on free bodies
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;

@@ -35,6 +35,16 @@ void FingerImpulses::add(const FingerJoints& joints, double h, int substeps) {
   }
 }
 
+void FingerImpulses::add(const OwedImpulses& owed, double period) {
+  for (const OwedImpulses::Owed& one : owed.all()) {
+    if (!one.moves) continue;
+    const auto finger = static_cast<std::size_t>(one.finger);
+    force_[finger] += one.owed_W / period;
+    impulse_[finger] += one.owed_W;
+    if (one.touches) touch(finger, static_cast<std::size_t>(one.body), one.owed_W);
+  }
+}
+
 void FingerImpulses::touch(std::size_t finger, std::size_t body, const Vec3& impulse_W) {
   const auto f = static_cast<std::int32_t>(finger), b = static_cast<std::int32_t>(body);
   const auto same = [&](const FingerImpulse& one) { return one.finger == f && one.body == b; };

@@ -4,6 +4,7 @@
 #include "framework/core/state/object_state.h"
 #include "framework/scene/scene.h"
 #include "modules/dynamics_ode/finger_joints.h"
+#include "modules/dynamics_ode/owed_impulses.h"
 
 namespace presa::ode {
 
@@ -18,6 +19,8 @@ class FingerImpulses {
   void begin(double time);
   /// Adds the contacts of a solved sub-step of `h` [s], one of `substeps`.
   void add(const FingerJoints& joints, double h, int substeps);
+  /// Adds what the step gives of what is owed, over `period` [s].
+  void add(const OwedImpulses& owed, double period);
   /// Forgets the contacts that the step no longer had.
   void end();
   void setForcesToZero();

@@ -77,7 +77,7 @@ class FingerJoints {
   std::vector<ContactProblem::Motor> torsion_;  // the same for Presa's own solvers
 };
 
-/// Calls use(finger, contact, body) for each contact of a finger with a moving body. Returns the number of invalid
+/// Calls use(finger, contact, body) for each contact of a finger with a moving body on which fingers act. Returns the number of invalid
 /// contacts.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
@@ -86,7 +86,7 @@ std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies,
     const auto body = static_cast<std::size_t>(contact.body);
     if (contact.body < 0 || body >= bodies.size() || !isUsable(contact)) {
       ++invalid;
-    } else if (bodies.moves(body)) {
+    } else if (bodies.moves(body) && bodies.isReached(body)) {
       use(finger, contact, body);
     }
   };

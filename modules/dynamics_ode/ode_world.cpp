@@ -18,6 +18,7 @@
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/owed_impulses.h"
 #include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/snap_drive.h"
 #include "modules/dynamics_ode/step_solver.h"
@@ -71,6 +72,7 @@ struct OdeWorld::Impl {
       engine_solvers.emplace(world->scene, engine, bodies, options);
     }
     if (options.method.sleeping) sleep.emplace(bodies);
+    if (options.gives_what_is_felt) owed.emplace();
   }
 
   void step(const ContactExchange& exchange, double time, double period, bool late);
@@ -110,6 +112,7 @@ struct OdeWorld::Impl {
   std::optional<StepSolver> engine_solvers;
   std::optional<Sweep> sweep;            // with Presa's own solvers
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
+  std::optional<OwedImpulses> owed;      // empty unless the options ask for it
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
   EffectForces effects;
   std::optional<BodyEffectForces> body_effects;  // empty when the scene has none
@@ -192,6 +195,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   bodies.resetForces();
   if (snap_drive_) snap_drive_->drive(bodies, h);
   effects.push(bodies);
+  if (owed) owed->push(bodies);
   if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
   if (own_solvers) {
@@ -200,6 +204,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
     ++fallback_steps;
   }
   impulses.add(fingers, h, substeps);
+  if (owed) owed->notePredicted(fingers, h);
   bodies.driftRotations(h);
   if (sweep) sweep->stopShort(bodies, h);
   energy.settle(bodies, islands, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr);
@@ -262,6 +267,10 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   if (sleep) pauseFar(exchange, period, late);
   impulses.begin(time);
   wakeTouched(exchange);
+  if (owed) {
+    owed->read(exchange, period, bodies);
+    impulses.add(*owed, period);
+  }
   if (snap_drive_) snap_drive_->carry(bodies, sleep ? &*sleep : nullptr, period);
   if (body_effects) wakeStirred(time, period);
   if (!bodies.anyAwake()) {
@@ -271,7 +280,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    collider.find(bodies, period / substeps, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
+    collider.find(bodies, period / substeps + options.look_ahead, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
     if (s == 0) substeps = substepsNow(exchange, period);
     substep(exchange, time + s * period / substeps, period / substeps, substeps);
@@ -311,6 +320,8 @@ void OdeWorld::release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const 
   if (impl_->bodies.isHeld(i)) impl_->bodies.release(i, X_WB, v_WB, w_WB);
 }
 
+void OdeWorld::setReached(std::size_t i, bool reached) noexcept { impl_->bodies.setReached(i, reached); }
+
 void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
   if (impl_->failed) return;
   if (!impl_->snap_drive_) impl_->snap_drive_.emplace(impl_->bodies, impl_->engine.world());
@@ -320,6 +331,7 @@ void OdeWorld::setSnapConstraints(const SnapConstraints& snap_constraints) {
 void OdeWorld::makeRoom(const ContactExchange& fingers) {
   impl_->fingers.makeRoom(fingers);
   impl_->impulses.makeRoom(fingers.fingers.size());
+  if (impl_->owed) impl_->owed->makeRoom(fingers);
   if (impl_->own_solvers) impl_->own_solvers->makeRoom(std::max(fingers.fingers.size(), fingers.contacts.capacity()));
 }
 
@@ -349,6 +361,7 @@ void OdeWorld::writeCounts(ObjectState& out) const noexcept {
   out.far_lag = impl_->far_lag;
   if (impl_->sweep) out.stopped_short = impl_->sweep->stops();
   impl_->impulses.write(out);
+  if (impl_->owed) impl_->owed->leaveOutPredicted(out.touches);
 }
 
 BodyMotion OdeWorld::motion(std::size_t i) const noexcept { return impl_->bodies.now(i); }

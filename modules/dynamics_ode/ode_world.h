@@ -46,6 +46,8 @@ class OdeWorld {
   void hold(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept;
   /// Lets body `i` move on from this pose with these velocities.
   void release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const Vec3& w_WB) noexcept;
+  /// Whether fingers act on body `i` from the next step on (default: yes).
+  void setReached(std::size_t i, bool reached) noexcept;
   /// Pose and velocities of free body `i`.
   BodyMotion motion(std::size_t i) const noexcept;
   /// Allocates for the fingers and contacts that this exchange has room for. Not called: the first step allocates.

@@ -49,7 +49,7 @@ struct EnergyCreated {
 struct FingerImpulse {
   std::int32_t finger = 0, body = kNoBody;
   double since = 0;               ///< time_begin of the first step with this contact [s]
-  Vec3 impulse_W = Vec3::Zero();  ///< on the body [N s]
+  Vec3 impulse_W = Vec3::Zero();  ///< on the body; of a held body without what is predicted for a later tick [N s]
   double until = kNoEnd;          ///< up to which it is counted [s]; kNoEnd: to time_end
   static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 };

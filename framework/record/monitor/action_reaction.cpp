@@ -48,8 +48,8 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
   if (fresh && objects.time_end >= tick.time) {
     const double half_step = (objects.time_end - objects.time_begin) / 2;
     Given* const own = giveAt(givers_[0], objects.time_end + half_step + tick.period / 2);
-    // a held body's step is as long as a tick
-    Given* const held = givers_.size() > 1 ? giveAt(givers_[1], objects.held_time + tick.period) : nullptr;
+    // of a held body the forces of all ticks that have ended
+    Given* const held = givers_.size() > 1 ? giveAt(givers_[1], objects.held_time) : nullptr;
     for (const FingerImpulse& one : objects.touches) {
       if (Given* const given = one.until == FingerImpulse::kNoEnd ? own : held) given->impulses.add(one);
     }

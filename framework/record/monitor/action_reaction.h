@@ -16,7 +16,8 @@ namespace presa {
 /// p_WH), the dynamics solves an implicit constraint row. Each force is counted around the instant for which it was
 /// computed: a tick's force around its sample, an implicit step's force around the end of the step. (Counted over the
 /// interval in which it is held, the sums would differ by half a step and half a tick times the change of the force;
-/// that error does not grow with time.)
+/// that error does not grow with time.) A body that the haptic thread moves gets each tick's own force in the next step,
+/// so its sums are compared at the ends of ticks.
 /// Thread: haptic; nonblocking, all memory is allocated at construction.
 class ActionReaction {
  public:

@@ -11,11 +11,16 @@
 namespace presa::ode {
 namespace {
 
+// What a held body will meet is taken over before the dynamics begin the step in which they would let it be hit.
+double lookAhead(const Scene& scene) { return 1 / scene.rates.dynamics + 1 / scene.rates.haptic; }
+
 OdeOptions optionsOf(const World& world, std::uint64_t seed) {
   OdeOptions options;
   options.method = world.scene.dynamics;
   options.method.coupling = DynamicsSettings::Coupling::kSoft;
   options.method.sleeping = false;
+  options.gives_what_is_felt = true;
+  options.look_ahead = lookAhead(world.scene);
   options.seed = seed;
   return options;
 }
@@ -28,6 +33,22 @@ double radiusOf(const Body& body, const BodyMeshes& meshes) {
       corner[axis] = std::max(corner[axis], supportOf(body, meshes, side * Vec3::Unit(axis)));
   }
   return corner.norm();
+}
+
+/// Calls use(body) for each free body that a finger touches, once for each finger.
+template <class Use>
+void forEachTouched(const ContactExchange& fingers, const std::vector<char>& is_free, Use use) {
+  const auto judge = [&](std::int32_t body) {
+    if (const std::size_t i = index(body); body >= 0 && i < is_free.size() && is_free[i] != 0) use(i);
+  };
+  for (const FingerContact& finger : fingers.fingers) {
+    if (finger.mode == ContactMode::kNone) continue;
+    if (finger.contact_count < 2) {
+      judge(finger.body);
+    } else {
+      for (const ToolContact& contact : fingers.contactsOf(finger)) judge(contact.body);
+    }
+  }
 }
 
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
@@ -54,6 +75,7 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
   entries_ = BoundedList<Entry>(room);
   groups_.resize(room);
   out_.value.bodies = BoundedList<HeldBody>(room);
+  out_.value.refused = BoundedList<std::int32_t>(std::min(scene.devices.size() * kMaxNearBodies, free_.size()));
   FingerImpulses(scene).write(out_.value.counted);
   FingerImpulses(scene).write(shown_objects_.value);
   for (const Body& body : scene.bodies) {
@@ -122,6 +144,19 @@ bool HapticRateModule::isNear(std::size_t i, const Vec3& p_W) const noexcept {
   });
 }
 
+Vec3 HapticRateModule::velocityAt(std::size_t body, const Vec3& p_W) noexcept {
+  if (is_free_[body] == 0) return Vec3::Zero();
+  const Entry* entry = find(body);
+  const BodyMotion motion = entry != nullptr && moves(*entry) ? bodies_->motion(body) : shown(body);
+  return motion.v_WB + motion.w_WB.cross(p_W - motion.X_WB_end.p);
+}
+
+// Whether two bodies touch, or will within the time that contacts are found ahead.
+bool HapticRateModule::meet(const BodyContact& contact) noexcept {
+  const Vec3 v_AB = velocityAt(index(contact.A), contact.p_W) - velocityAt(index(contact.B), contact.p_W);
+  return -contact.depth <= kTouches + options_.look_ahead * std::max(0.0, v_AB.dot(contact.nhat_AB_W));
+}
+
 // Obstacles that are far from what the haptic thread moves stay where they are, also when they come from afar.
 void HapticRateModule::placeOthers() noexcept {
   for (const std::size_t i : free_) {
@@ -168,19 +203,10 @@ void HapticRateModule::completeReturns() noexcept {
 
 void HapticRateModule::markTouched(const ContactExchange& fingers) noexcept {
   for (Entry& entry : entries_) entry.finger = false;
-  for (const FingerContact& finger : fingers.fingers) {
-    if (finger.mode == ContactMode::kNone) continue;
-    if (finger.contact_count < 2) {
-      touch(finger.body);
-    } else {
-      for (const ToolContact& contact : fingers.contactsOf(finger)) touch(contact.body);
-    }
-  }
+  forEachTouched(fingers, is_free_, [&](std::size_t i) { touch(i); });
 }
 
-void HapticRateModule::touch(std::int32_t body) noexcept {
-  const std::size_t i = index(body);
-  if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
+void HapticRateModule::touch(std::size_t i) noexcept {
   Entry* entry = find(i);
   if ((entry == nullptr || !isHeld(*entry)) && now_ >= waits_[i].until) {
     if (takeIsland(i, {0, now_}) > 0) {
@@ -235,7 +261,8 @@ void HapticRateModule::findGroups() noexcept {
     changed = false;
     for (const BodyContact& contact : bodies_->contacts()) {
       Entry *a = find(index(contact.A)), *b = find(index(contact.B));
-      if (a == nullptr || b == nullptr || !isHeld(*a) || !isHeld(*b) || a->group == b->group) continue;
+      if (a == nullptr || b == nullptr || !isHeld(*a) || !isHeld(*b) || a->group == b->group || !meet(contact))
+        continue;
       a->group = b->group = std::min(a->group, b->group);
       changed = true;
     }
@@ -256,7 +283,8 @@ void HapticRateModule::growGroups() noexcept {
       const Entry* holder = find(index(one));
       if (holder == nullptr || !isHeld(*holder) || is_free_[index(other)] == 0) continue;
       Group& group = groups_[holder->group];
-      if (const Entry* met = find(index(other)); !group.grows || (met != nullptr && moves(*met))) continue;
+      if (const Entry* met = find(index(other)); !group.grows || (met != nullptr && moves(*met)) || !meet(contact))
+        continue;
       const std::size_t taken = takeIsland(index(other), {group.size, holder->touched, holder->group});
       group.grows = taken > 0;
       group.size += taken;
@@ -305,6 +333,11 @@ void HapticRateModule::write() noexcept {
   out.time = now_;
   out.bodies.clear();
   for (const Entry& entry : entries_) out.bodies.add(entry.held);
+  out.refused.clear();
+  forEachTouched(fingers_.value(), is_free_, [&](std::size_t i) {
+    if (const Entry* entry = find(i); entry == nullptr || !isHeld(*entry))
+      out.refused.add(static_cast<std::int32_t>(i));
+  });
   bodies_->writeCounts(out.counted);
   show();
 }

@@ -33,6 +33,7 @@ class HapticRateModule final : public Module, public PluginHost {
  private:
   static constexpr double kLetGo = 0.05;                      // [s]
   static constexpr double kMargin = 0.05;                     // a body that moves at 10 m/s needs 5 ms for it [m]
+  static constexpr double kTouches = 1e-5;                    // bodies with a smaller gap are in contact [m]
   static constexpr double kFirstWait = 0.5, kLastWait = 8.0;  // before a group that was too large is tried again [s]
 
   struct Entry {
@@ -70,11 +71,13 @@ class HapticRateModule final : public Module, public PluginHost {
   BodyMotion inDynamics(std::size_t body) const noexcept;
   BodyMotion shown(std::size_t body) noexcept;
   bool isNear(std::size_t body, const Vec3& p_W) const noexcept;
+  Vec3 velocityAt(std::size_t body, const Vec3& p_W) noexcept;
+  bool meet(const BodyContact& contact) noexcept;
   void placeOthers() noexcept;
   void readBack() noexcept;
   void completeReturns() noexcept;
   void markTouched(const ContactExchange& fingers) noexcept;
-  void touch(std::int32_t body) noexcept;
+  void touch(std::size_t body) noexcept;
   std::size_t takeIsland(std::size_t body, const Joined& to) noexcept;
   void take(std::size_t body, const Joined& to) noexcept;
   void findGroups() noexcept;

@@ -32,13 +32,15 @@ struct HeldBody {
 struct HeldBodies {
   double time = 0;               ///< [s]
   BoundedList<HeldBody> bodies;  ///< each at most once
-  std::uint64_t taken = 0;       ///< since the start: bodies taken over from the dynamics
-  std::uint64_t too_many = 0;    ///< since the start: how often a group was too large: not taken over, or given back
+  /// Bodies that fingers touch and whose group is too large: on these alone do fingers act in the dynamics.
+  BoundedList<std::int32_t> refused;
+  std::uint64_t taken = 0;     ///< since the start: bodies taken over from the dynamics
+  std::uint64_t too_many = 0;  ///< since the start: how often a group was too large: not taken over, or given back
   /// What the steps of these bodies counted: impulses of fingers, contacts, energy, faults. Holds no bodies.
   ObjectState counted;
 
   /// Heap memory that it owns [bytes] (SizedAtLoad).
-  std::size_t roomBytes() const noexcept { return bodies.roomBytes() + counted.roomBytes(); }
+  std::size_t roomBytes() const noexcept { return bodies.roomBytes() + refused.roomBytes() + counted.roomBytes(); }
 };
 
 inline constexpr const char* kHeldBodiesPort = "held_bodies";

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+
+#include "framework/core/exchange/bounded_list.h"
+#include "framework/core/state/contact_exchange.h"
+#include "framework/core/state/object_state.h"
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/finger_joints.h"
+
+namespace presa::ode {
+
+/// What the fingers felt and the bodies have not got: in a step that an implicit solve predicts, a body gets the force
+/// that its finger should feel at the end of the step; what the finger then feels is known a step later. The difference
+/// is given in that step, as a force at the proxy, so that the sums agree whatever changes the force: a hand that stops,
+/// an effect, the end of a contact. For steps that begin at the sample of the exchange and take as long as it is held.
+class OwedImpulses {
+ public:
+  struct Owed {
+    std::int32_t finger = 0, body = kNoBody;
+    bool moves = false;               // in this step; else it will be moved from the next one on, or elsewhere
+    bool is_new = true;               // no contact of this finger in the exchange before
+    bool touches = false;             // in this step's exchange
+    Vec3 p_BP = Vec3::Zero();         // where the force acts, coordinates of the body [m]
+    Vec3 predicted_W = Vec3::Zero();  // on the body in the step before, or in this step so far [N s]
+    Vec3 owed_W = Vec3::Zero();       // on the body in this step [N s]
+  };
+
+  /// Allocates for the contacts of this exchange. Not called: the first step allocates.
+  void makeRoom(const ContactExchange& exchange);
+  /// Before a step of `period` [s].
+  void read(const ContactExchange& exchange, double period, const BodySet& bodies);
+  /// In each sub-step, after BodySet::resetForces: the mean force over the period.
+  void push(BodySet& bodies) const;
+  /// After the solve of a sub-step of `h` [s].
+  void notePredicted(const FingerJoints& fingers, double h);
+  const BoundedList<Owed>& all() const noexcept { return all_; }
+  /// Takes from the impulses of the last step what it gave in advance, as a prediction of what is not felt yet.
+  void leaveOutPredicted(BoundedList<FingerImpulse>& given) const noexcept;
+
+ private:
+  void read(std::size_t finger, const ToolContact& contact, const BodySet& bodies);
+  Owed* find(std::size_t finger, std::size_t body) noexcept;
+
+  double period_ = 0;  // [s]
+  BoundedList<Owed> all_;
+};
+
+}  // namespace presa::ode
