@@ -11,17 +11,6 @@ namespace {
 // A sum of several terms may exceed the bound by rounding.
 constexpr double kRounding = 1 + 1e-9;
 
-std::string nameOf(const PluginElement& element, const Scene& scene) {
-  const std::string name = "<" + element.element + ">";
-  if (element.body == kNoBody) return name;
-  return name + " of body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
-}
-
-/// Zero for an element without this attribute.
-double boundOf(const PluginElement& element, const std::string& attribute) {
-  return element.attributes.contains(attribute) ? element.number(attribute) : 0;
-}
-
 std::unique_ptr<BodyEffect> make(const PluginElement& element, std::size_t bodies) {
   const auto& table = pluginTable<BodyEffectPlugin>(element.plugin, "presaBodyEffectPlugin");
   return madeFor(element, [&] { return table.create(element, bodies); });

@@ -11,21 +11,9 @@ namespace {
 // A sum of several terms may exceed the bound by rounding.
 constexpr double kRounding = 1 + 1e-9;
 
-std::string nameOf(const PluginElement& element, const Scene& scene) {
-  const std::string name = "<" + element.element + ">";
-  return element.body == kNoBody
-             ? name
-             : name + " of body '" + scene.bodies[static_cast<std::size_t>(element.body)].name + "'";
-}
-
 std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
   const auto& table = pluginTable<ForceEffectPlugin>(element.plugin, "presaForceEffectPlugin");
   return madeFor(element, [&] { return table.create(element, tools); });
-}
-
-/// Zero for an element without this attribute.
-double boundOf(const PluginElement& element, const std::string& attribute) {
-  return element.attributes.contains(attribute) ? element.number(attribute) : 0;
 }
 
 }  // namespace

@@ -1,12 +1,20 @@
 #pragma once
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/scene/plugin_element.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
+
+/// "<drag>", of several in one place "<drag[2]>" as in a --set path, and " of body 'cube'" if it stands in one.
+std::string nameOf(const PluginElement& element, const Scene& scene);
+
+/// Value of a bound such as max_force; zero for an element without it.
+double boundOf(const PluginElement& element, const std::string& attribute);
 
 /// The object that a plug-in makes for an element of the scene. Throws InputError: E596 with the element's place when
 /// `create` throws or makes nothing. std::invalid_argument says what is wrong with the element's values; any other

@@ -109,10 +109,25 @@ class PathWalk {
                 "possible" + (index_ > 0 ? " after " + here() : std::string(" at the start")) + ": " + listed(names));
   }
 
+  /// "vortex[2]": the second <vortex>; without brackets the only one.
+  struct Numbered {
+    std::string name;
+    std::size_t number = 0;  // 0: none is given
+  };
+  static Numbered numbered(const std::string& part) {
+    const std::size_t open = part.find('[');
+    if (open == std::string::npos || part.back() != ']') return {part, 0};
+    const std::string digits = part.substr(open + 1, part.size() - open - 2);
+    const bool is_number = !digits.empty() && digits.size() < 7 &&
+                           std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return is_number && std::stoul(digits) > 0 ? Numbered{part.substr(0, open), std::stoul(digits)} : Numbered{part, 0};
+  }
+
   bool descend() {
     const std::string& part = parts_[index_];
-    const ElementRule* next = rule_->child(part);
-    if (next) return enter(*next);
+    const Numbered which = numbered(part);
+    const ElementRule* next = rule_->child(which.name);
+    if (next && (which.number == 0 || identityAttribute(*next).empty())) return enter(*next, which.number);
     for (const xml::ContentRule& content : rule_->content) {
       const ElementRule& container = *content.options.front();
       const ElementRule* inner = content.options.size() == 1 ? listedElement(container) : nullptr;
@@ -129,16 +144,18 @@ class PathWalk {
     return unknownPart();
   }
 
-  bool enter(const ElementRule& next) {
+  /// `number`: which of several, from 1 on; 0: the only one.
+  bool enter(const ElementRule& next, std::size_t number) {
     const std::vector<Element> found = element_.children(next.name);
     if (!identityAttribute(next).empty()) return enterNamed(next, found);
     const xml::ContentRule& content = *rule_->contentOf(next.name);
-    if (found.size() > 1 && content.options.size() > 1) {
-      return fail(element_.label() + " holds " + std::to_string(found.size()) + " <" + next.name + ">",
-                  "a path cannot tell them apart; change the file");
+    if (number > found.size() || (number == 0 && found.size() > 1)) {
+      const std::string count = std::to_string(found.size());
+      return fail(element_.label() + " holds " + (found.empty() ? "no" : count) + " <" + next.name + ">",
+                  found.empty() ? "" : "say which: " + next.name + "[1] to " + next.name + "[" + count + "]");
     }
     if (!found.empty()) {
-      step(found.front(), next, 1);
+      step(found[std::max<std::size_t>(number, 1) - 1], next, 1);
       return true;
     }
     if (content.options.size() > 1) {

@@ -29,7 +29,7 @@ TEST(Override, ReachesEveryKindOfValue) {
   EXPECT_EQ(load({{"name", "other"}}).name, "other");
 }
 
-// Of several shapes of one kind a path cannot name one; of one of each kind it can.
+// Of several shapes of one kind a path says which; without a number it names one only if there is one of its kind.
 TEST(Override, DoesNotGuessAmongSeveralShapes) {
   const std::string one = "<cylinder radius=\"0.03\" length=\"0.07\"/>";
   const std::vector<Override> change{{"body/cube/physics/sphere/radius", "0.04"}};
@@ -38,11 +38,22 @@ TEST(Override, DoesNotGuessAmongSeveralShapes) {
   const Scene scene = parseScene(mixed, "scene.xml", "/lab", change, good);
   ASSERT_TRUE(good.all().empty()) << good.text();
   EXPECT_EQ(std::get<Sphere>(std::get<Compound>(scene.bodies[1].physics->shape).parts[1].shape).radius, 0.04);
-  const Diagnostics findings =
-      findingsOf(edited(kScene, one, "<sphere radius=\"0.02\"/><sphere radius=\"0.03\"/>"), change);
-  ASSERT_EQ(findings.all().size(), 1U) << findings.text();
-  EXPECT_EQ(findings.all()[0].code, 202);
+  const std::string two = edited(kScene, one, "<sphere radius=\"0.02\"/><sphere radius=\"0.03\"/>");
+  Diagnostics numbered;
+  const Scene second = parseScene(two, "scene.xml", "/lab", {{"body/cube/physics/sphere[2]/radius", "0.05"}}, numbered);
+  ASSERT_TRUE(numbered.all().empty()) << numbered.text();
+  const auto& parts = std::get<Compound>(second.bodies[1].physics->shape).parts;
+  EXPECT_EQ(std::get<Sphere>(parts[0].shape).radius, 0.02);
+  EXPECT_EQ(std::get<Sphere>(parts[1].shape).radius, 0.05);
+  for (const char* which : {"sphere", "sphere[3]", "sphere[0]", "sphere[2", "sphere[x]"}) {
+    const std::string path = std::string("body/cube/physics/") + which + "/radius";
+    const Diagnostics findings = findingsOf(two, {{path, "0.04"}});
+    ASSERT_EQ(findings.all().size(), 1U) << findings.text();
+    EXPECT_EQ(findings.all()[0].code, 202) << findings.text();
+  }
+  const Diagnostics findings = findingsOf(two, change);
   EXPECT_NE(findings.text().find("holds 2 <sphere>"), std::string::npos) << findings.text();
+  EXPECT_NE(findings.text().find("sphere[1] to sphere[2]"), std::string::npos) << findings.text();
 }
 
 TEST(Override, ListsMayBeWrittenOrSkipped) {
