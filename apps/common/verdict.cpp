@@ -94,12 +94,12 @@ std::optional<std::string> impulseSentence(const RunResult& result) {
   }
   if (worst == nullptr) return std::nullopt;
   const ActionReaction::Result& reaction = worst->summary.reaction;
-  const bool held = result.world->scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
+  const Scene& scene = result.world->scene;
+  const bool may_be_held = scene.dynamics.coupling == DynamicsSettings::Coupling::kSoft &&
+                           scene.dynamics.engine == kDefaultEngine && !scene.assembly;
   return "The impulse on the object and the one that " + worst->name + " felt differed by up to " +
-         fixed(100 * reaction.worst, 1) + " % over 0.1 s (until " + fixed(reaction.time, 3) + " s). " +
-         (held ? "The group of bodies was too large for the haptic thread: max_held of <dynamics> sets how many it "
-                 "moves."
-               : "<dynamics coupling=\"haptic_rate\"> gives bodies exactly what fingers feel.");
+         fixed(100 * reaction.worst, 1) + " % over 0.1 s (until " + fixed(reaction.time, 3) + " s)." +
+         (may_be_held ? " <dynamics coupling=\"haptic_rate\"> gives bodies exactly what fingers feel." : "");
 }
 
 constexpr double kEnergyTold = 1e-3;  // [J], a grain of rice that falls 5 m

@@ -11,7 +11,7 @@ struct BodyContact {
   std::int32_t A = -1, B = -1;  ///< indices into Scene::bodies
   Vec3 p_W = Vec3::Zero();      ///< [m]
   Vec3 nhat_AB_W = Vec3::UnitZ();
-  double depth = 0;  ///< [m]; negative: a gap that the two may close within the step
+  double depth = 0;  ///< [m]; negative: a gap that the two may close within the step or soon after
 };
 
 /// Contacts per body for which memory is reserved at the start; more contacts allocate once.

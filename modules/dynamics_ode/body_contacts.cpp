@@ -141,7 +141,7 @@ void BodyContacts::report(const BodySet& bodies, const Meeting& of, double same,
 // Approach by the current velocity, plus, if both bodies are awake, the approach caused by gravity within the step.
 double BodyContacts::mayClose(const BodySet& bodies, const BodyContact& c, double h) const {
   const auto A = static_cast<std::size_t>(c.A), B = static_cast<std::size_t>(c.B);
-  const double closing = -(bodies.velocityAt(B, c.p_W) - bodies.velocityAt(A, c.p_W)).dot(c.nhat_AB_W);
+  const double closing = -(bodies.pathVelocityAt(B, c.p_W) - bodies.pathVelocityAt(A, c.p_W)).dot(c.nhat_AB_W);
   if (bodies.asleep(A) || bodies.asleep(B)) return h * closing;
   const double pull = -gravity_.dot(c.nhat_AB_W);
   return h * closing + kRim * h * h * std::max(pull, bodies.moves(A) ? -pull : 0);

@@ -149,8 +149,14 @@ Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
   return toVec3(dBodyGetLinearVel(entry.body)) + w_WB.cross(p_W - entry.begin.p_WCm);
 }
 
+Vec3 BodySet::pathVelocityAt(std::size_t i, const Vec3& p_W) const {
+  if (!isHeld(i)) return velocityAt(i, p_W);
+  const Motion motion = read(bodies_[i]);
+  return motion.v_WCm + motion.w_WB.cross(p_W - motion.p_WCm);
+}
+
 double BodySet::reach(std::size_t i, double h) const {
-  if (!moves(i)) return 0;
+  if (!moves(i) && !isHeld(i)) return 0;
   const Entry& entry = bodies_[i];
   return h * (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.rim);
 }

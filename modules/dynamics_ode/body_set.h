@@ -77,7 +77,11 @@ class BodySet {
   /// Current velocity of the point of body `i` that was at p_W at the last beginStep [m/s]; zero if it does not move.
   Vec3 velocityAt(std::size_t i, const Vec3& p_W) const;
 
-  /// Maximum distance that a point of body `i` travels in `h` at its current velocity [m]; zero if it does not move.
+  /// The same, and for a held body the velocity with which hold() says that it moves: for what may meet it [m/s].
+  Vec3 pathVelocityAt(std::size_t i, const Vec3& p_W) const;
+
+  /// Maximum distance that a point of body `i` travels in `h` at its current velocity, held or not [m]; zero if it is
+  /// fixed.
   double reach(std::size_t i, double h) const;
 
   struct Motion {

@@ -39,9 +39,9 @@ void FingerImpulses::add(const OwedImpulses& owed, double period) {
   for (const OwedImpulses::Owed& one : owed.all()) {
     if (!one.moves) continue;
     const auto finger = static_cast<std::size_t>(one.finger);
-    force_[finger] += one.owed_W / period;
-    impulse_[finger] += one.owed_W;
-    if (one.touches) touch(finger, static_cast<std::size_t>(one.body), one.owed_W);
+    force_[finger] += one.owed() / period;
+    impulse_[finger] += one.owed();
+    if (one.touches) touch(finger, static_cast<std::size_t>(one.body), one.owed());
   }
 }
 

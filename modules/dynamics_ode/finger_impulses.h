@@ -8,7 +8,7 @@
 
 namespace presa::ode {
 
-/// What the fingers gave to the bodies: the mean force of the last step by finger, the impulse since the start by
+/// What the fingers gave to the bodies, what was owed to them included: the mean force of the last step by finger, the impulse since the start by
 /// finger, and the impulse by finger and body since the finger came to that body.
 class FingerImpulses {
  public:

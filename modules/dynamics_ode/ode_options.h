@@ -23,7 +23,7 @@ struct OdeOptions {
   /// A step also gives what the fingers felt since the last step beyond what that one predicted (owed_impulses.h); steps
   /// as long as a tick.
   bool gives_what_is_felt = false;
-  double look_ahead = 0;  ///< contacts are found that long before the step in which they close [s]
+  double look_ahead = 0;   ///< contacts are found that long before the step in which they close [s]
   std::uint64_t seed = 1;  ///< seed of the order in which the iterative solver visits its rows
   /// Newton's method up to so many products of blocks in an iteration (0.1 us each), small steps beyond.
   std::size_t newton_work = 2000;

@@ -280,7 +280,8 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   int substeps = 1;
   for (int s = 0; s < substeps; ++s) {
     bodies.beginStep();
-    collider.find(bodies, period / substeps + options.look_ahead, contacts, [&](std::size_t i) { sleep->wake(bodies, i); });
+    collider.find(bodies, period / substeps + options.look_ahead, contacts,
+                  [&](std::size_t i) { sleep->wake(bodies, i); });
     findIslands(exchange);
     if (s == 0) substeps = substepsNow(exchange, period);
     substep(exchange, time + s * period / substeps, period / substeps, substeps);

@@ -70,7 +70,7 @@ class OdeWorld {
   /// Sets the velocity of moving body `i` at its origin and its angular velocity [m/s, rad/s, in W].
   void setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) noexcept;
 
-  /// Mean force of finger `i` on its bodies over the last step, as solved [N]; zero without contact.
+  /// Mean force of finger `i` on its bodies over the last step, as given [N]; zero without contact.
   Vec3 fingerForce(std::size_t i) const noexcept;
   /// Contacts between bodies in the last step.
   const std::vector<BodyContact>& contacts() const noexcept;

@@ -27,9 +27,11 @@ void OwedImpulses::read(const ContactExchange& exchange, double period, const Bo
       all_.remove(i);
       continue;
     }
-    const Vec3 unpaid = one.is_new && !one.moves ? one.owed_W : Vec3(Vec3::Zero());
-    one.owed_W = unpaid - one.predicted_W;
+    const bool is_unpaid = one.is_new && !one.moves;
+    if (!is_unpaid) one.felt_W = Vec3::Zero();
+    one.taken_back_W = -one.predicted_W;
     one.predicted_W = Vec3::Zero();
+    one.p_BP_before = one.p_BP;
     one.touches = one.is_new = false;
     one.moves = bodies.moves(index(one.body));
   }
@@ -50,7 +52,7 @@ void OwedImpulses::read(std::size_t finger, const ToolContact& contact, const Bo
   }
   if (one == nullptr) return;
   one->p_BP = contact.p_BP;
-  one->owed_W -= period_ * contact.f_H_W;
+  one->felt_W -= period_ * contact.f_H_W;
   one->touches = true;
 }
 
@@ -58,7 +60,9 @@ void OwedImpulses::push(BodySet& bodies) const {
   for (const Owed& one : all_) {
     if (!one.moves) continue;
     const std::size_t body = index(one.body);
-    bodies.addForce(body, one.owed_W / period_, bodies.pose(body) * one.p_BP);
+    const Pose X_WB = bodies.pose(body);
+    bodies.addForce(body, one.felt_W / period_, X_WB * one.p_BP);
+    bodies.addForce(body, one.taken_back_W / period_, X_WB * one.p_BP_before);
   }
 }
 

@@ -11,18 +11,22 @@ namespace presa::ode {
 
 /// What the fingers felt and the bodies have not got: in a step that an implicit solve predicts, a body gets the force
 /// that its finger should feel at the end of the step; what the finger then feels is known a step later. The difference
-/// is given in that step, as a force at the proxy, so that the sums agree whatever changes the force: a hand that stops,
-/// an effect, the end of a contact. For steps that begin at the sample of the exchange and take as long as it is held.
+/// is given in that step, as forces at the proxies, so that the sums of impulse and angular impulse agree whatever changes
+/// the force: a hand that stops, a surface effect, the end of a contact. Torques about a contact's normal are left to the
+/// solve alone. For steps that begin at the sample of the exchange and take as long as it is held.
 class OwedImpulses {
  public:
   struct Owed {
     std::int32_t finger = 0, body = kNoBody;
-    bool moves = false;               // in this step; else it will be moved from the next one on, or elsewhere
-    bool is_new = true;               // no contact of this finger in the exchange before
-    bool touches = false;             // in this step's exchange
-    Vec3 p_BP = Vec3::Zero();         // where the force acts, coordinates of the body [m]
-    Vec3 predicted_W = Vec3::Zero();  // on the body in the step before, or in this step so far [N s]
-    Vec3 owed_W = Vec3::Zero();       // on the body in this step [N s]
+    bool moves = false;                // in this step; else it will be moved from the next one on, or elsewhere
+    bool is_new = true;                // no contact of this finger in the exchange before
+    bool touches = false;              // in this step's exchange
+    Vec3 p_BP = Vec3::Zero();          // where the finger's force acts, coordinates of the body [m]
+    Vec3 p_BP_before = Vec3::Zero();   // the same in the step before
+    Vec3 felt_W = Vec3::Zero();        // by the finger, on the body, to be given in this step [N s]
+    Vec3 taken_back_W = Vec3::Zero();  // what the step before predicted, the other way [N s]
+    Vec3 predicted_W = Vec3::Zero();   // in this step [N s]
+    Vec3 owed() const { return felt_W + taken_back_W; }
   };
 
   /// Allocates for the contacts of this exchange. Not called: the first step allocates.

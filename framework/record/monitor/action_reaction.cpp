@@ -26,6 +26,7 @@ ActionReaction::ActionReaction(const Scene& scene)
   for (const Body& body : scene.bodies) free_.push_back(body.fixed ? 0 : 1);
   const bool held = scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
   givers_.assign(held ? 2 : 1, Giver(span_, touches_));
+  felt_.assign(held ? kTicksKept : 1, Sums{-1, touches_});
 }
 
 bool ActionReaction::moves(std::int32_t body) const noexcept {
@@ -54,6 +55,9 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
       if (Given* const given = one.until == FingerImpulse::kNoEnd ? own : held) given->impulses.add(one);
     }
   }
+  newest_ = (newest_ + 1) % felt_.size();
+  felt_[newest_].time = tick.time;
+  felt_[newest_].touches = touches_;
   for (Giver& giver : givers_) pair(tick, giver);
   sum(tick, contact);
 }
@@ -82,26 +86,40 @@ void ActionReaction::sum(const Tick& tick, std::int32_t finger, const ToolContac
   touch->renewed = true;
 }
 
+// The oldest sums known that reach `time`; null: it is too long ago.
+const ActionReaction::Sums* ActionReaction::feltBy(double time) const noexcept {
+  const Sums* found = nullptr;
+  for (std::size_t i = 0; i < felt_.size(); ++i) {
+    const Sums& sums = felt_[(newest_ + felt_.size() - i) % felt_.size()];
+    if (sums.time < time) return found;
+    found = &sums;
+  }
+  return felt_.size() == 1 ? found : nullptr;
+}
+
 // Compares every step end that the rendered sums have reached by this tick.
 void ActionReaction::pair(const Tick& tick, Giver& giver) noexcept {
-  while (giver.pending_count > 0 && giver.pending[giver.pending_begin].time <= tick.time + 1e-3 * tick.period) {
+  const double tolerance = 1e-3 * tick.period;
+  while (giver.pending_count > 0 && giver.pending[giver.pending_begin].time <= tick.time + tolerance) {
     const Given& given = giver.pending[giver.pending_begin];
+    giver.pending_begin = (giver.pending_begin + 1) % giver.pending.size();
+    --giver.pending_count;
+    const Sums* const felt = feltBy(given.time - tolerance);
+    if (felt == nullptr) continue;
     Sums& now = giver.ring[giver.count % giver.ring.size()];
     now.time = given.time;
     now.touches.clear();
-    for (const Touch& touch : touches_) {
+    for (const Touch& touch : felt->touches) {
       const FingerImpulse* impulse = find(given.impulses, touch.finger, touch.body);
       if (impulse == nullptr) continue;
       Touch* sums = now.touches.add(touch);
       // the force is held over a tick: subtract the part of the last tick that lies after the time of comparison
-      sums->rendered -= (tick.time - now.time) * touch.force;
+      sums->rendered -= (felt->time - now.time) * touch.force;
       sums->given = impulse->impulse_W;
       sums->given_since = impulse->since;
     }
     compare(giver, now);
     ++giver.count;
-    giver.pending_begin = (giver.pending_begin + 1) % giver.pending.size();
-    --giver.pending_count;
   }
 }
 

@@ -61,7 +61,10 @@ class ActionReaction {
     std::array<Given, 64> pending;  // impulses whose time the haptic side has not reached
     std::size_t pending_begin = 0, pending_count = 0;
   };
+  // A state that knows of held bodies may come as many ticks after it was made.
+  static constexpr std::size_t kTicksKept = 16;
   Given* giveAt(Giver& giver, double time) noexcept;
+  const Sums* feltBy(double time) const noexcept;
   void sum(const Tick& tick, const ContactExchange& contact) noexcept;
   void sum(const Tick& tick, std::int32_t finger, const ToolContact& contact) noexcept;
   void pair(const Tick& tick, Giver& giver) noexcept;
@@ -71,6 +74,8 @@ class ActionReaction {
   std::vector<char> free_;  // by body
   std::size_t span_;        // dynamics steps in a window
   BoundedList<Touch> touches_;
+  std::vector<Sums> felt_;       // at the begins of the last ticks, in a ring
+  std::size_t newest_ = 0;       // in felt_
   std::vector<Giver> givers_;    // the dynamics, then the haptic thread if it moves what fingers hold
   std::vector<Result> results_;  // by finger
 };

@@ -35,22 +35,6 @@ double radiusOf(const Body& body, const BodyMeshes& meshes) {
   return corner.norm();
 }
 
-/// Calls use(body) for each free body that a finger touches, once for each finger.
-template <class Use>
-void forEachTouched(const ContactExchange& fingers, const std::vector<char>& is_free, Use use) {
-  const auto judge = [&](std::int32_t body) {
-    if (const std::size_t i = index(body); body >= 0 && i < is_free.size() && is_free[i] != 0) use(i);
-  };
-  for (const FingerContact& finger : fingers.fingers) {
-    if (finger.mode == ContactMode::kNone) continue;
-    if (finger.contact_count < 2) {
-      judge(finger.body);
-    } else {
-      for (const ToolContact& contact : fingers.contactsOf(finger)) judge(contact.body);
-    }
-  }
-}
-
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
   return std::make_unique<HapticRateModule>(std::move(world), options.seed);
 }
@@ -67,6 +51,8 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
     if (is_free_.back() != 0) free_.push_back(i);
   }
   waits_.resize(scene.bodies.size());
+  at_begin_.resize(scene.bodies.size());
+  at_end_.resize(scene.bodies.size());
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     reaches_.push_back({radiusOf(scene.bodies[i], world_->meshes[i]), scene.bodies[i].X_WB.p});
   }
@@ -75,7 +61,7 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
   entries_ = BoundedList<Entry>(room);
   groups_.resize(room);
   out_.value.bodies = BoundedList<HeldBody>(room);
-  out_.value.refused = BoundedList<std::int32_t>(std::min(scene.devices.size() * kMaxNearBodies, free_.size()));
+  out_.value.refused = BoundedList<std::int32_t>(std::min(room + scene.devices.size() * kMaxNearBodies, free_.size()));
   FingerImpulses(scene).write(out_.value.counted);
   FingerImpulses(scene).write(shown_objects_.value);
   for (const Body& body : scene.bodies) {
@@ -99,6 +85,7 @@ void HapticRateModule::start() {
 void HapticRateModule::step(const Tick& tick) noexcept {
   if (!objects_.hasValue()) return;
   now_ = tick.time;
+  noteVelocities();
   placeOthers();
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
   bodies_->step(fingers_.value(), tick.time - tick.period, tick.period);
@@ -122,6 +109,13 @@ HapticRateModule::Entry* HapticRateModule::find(std::size_t body) noexcept {
   return found == entries_.end() ? nullptr : found;
 }
 
+void HapticRateModule::noteVelocities() noexcept {
+  if (objects_.version() == noted_) return;
+  noted_ = objects_.version();
+  std::swap(at_begin_, at_end_);
+  for (const std::size_t i : free_) at_end_[i] = {objects_->bodies[i].v_WB, objects_->bodies[i].w_WB};
+}
+
 // The body in the dynamics, at the end of its motion where it is felt.
 BodyMotion HapticRateModule::inDynamics(std::size_t body) const noexcept {
   BodyMotion motion = objects_->bodies[body];
@@ -134,6 +128,18 @@ BodyMotion HapticRateModule::inDynamics(std::size_t body) const noexcept {
 BodyMotion HapticRateModule::shown(std::size_t body) noexcept {
   const Entry* entry = find(body);
   return entry == nullptr ? inDynamics(body) : entry->way.at(inDynamics(body), now_);
+}
+
+// The body as it is shown now, with its velocity now and not at the end of the dynamics' step: the haptic thread gives
+// what is left of that step.
+BodyMotion HapticRateModule::shownNow(std::size_t i) noexcept {
+  BodyMotion motion = shown(i);
+  const double span = objects_->time_end - objects_->time_begin;
+  if (world_->scene.haptics.pose == HapticSettings::PoseUse::kHold || !(span > 0)) return motion;
+  const double left = std::clamp((objects_->time_end - now_) / span, 0.0, 1.0);
+  motion.v_WB -= left * (at_end_[i].v_WB - at_begin_[i].v_WB);
+  motion.w_WB -= left * (at_end_[i].w_WB - at_begin_[i].w_WB);
+  return motion;
 }
 
 // Whether body `i` with its origin at p_W can meet a body that the haptic thread moves.
@@ -203,10 +209,19 @@ void HapticRateModule::completeReturns() noexcept {
 
 void HapticRateModule::markTouched(const ContactExchange& fingers) noexcept {
   for (Entry& entry : entries_) entry.finger = false;
-  forEachTouched(fingers, is_free_, [&](std::size_t i) { touch(i); });
+  for (const FingerContact& finger : fingers.fingers) {
+    if (finger.mode == ContactMode::kNone) continue;
+    if (finger.contact_count < 2) {
+      touch(finger.body);
+    } else {
+      for (const ToolContact& contact : fingers.contactsOf(finger)) touch(contact.body);
+    }
+  }
 }
 
-void HapticRateModule::touch(std::size_t i) noexcept {
+void HapticRateModule::touch(std::int32_t body) noexcept {
+  const std::size_t i = index(body);
+  if (body < 0 || i >= is_free_.size() || is_free_[i] == 0) return;
   Entry* entry = find(i);
   if ((entry == nullptr || !isHeld(*entry)) && now_ >= waits_[i].until) {
     if (takeIsland(i, {0, now_}) > 0) {
@@ -243,7 +258,7 @@ std::size_t HapticRateModule::takeIsland(std::size_t i, const Joined& to) noexce
 void HapticRateModule::take(std::size_t i, const Joined& to) noexcept {
   Entry* entry = find(i);
   const bool leaving = entry != nullptr && entry->held.phase == HeldBody::Phase::kLeaving;
-  const BodyMotion motion = leaving ? bodies_->motion(i) : shown(i);
+  const BodyMotion motion = leaving ? bodies_->motion(i) : shownNow(i);
   if (entry == nullptr) entry = entries_.add();
   if (entry == nullptr) return;  // takeIsland made sure of the room
   *entry = {};
@@ -314,6 +329,18 @@ void HapticRateModule::giveBack(std::size_t group) noexcept {
 void HapticRateModule::wait(std::size_t i) noexcept {
   Wait& wait = waits_[i];
   wait = {now_ + wait.next, std::min(2 * wait.next, kLastWait)};
+  BoundedList<std::int32_t>& refused = out_.value.refused;
+  const auto body = static_cast<std::int32_t>(i);
+  if (std::ranges::find(refused, body) != refused.end() || refused.add(body) != nullptr) return;
+  const auto until = [&](std::int32_t other) { return waits_[index(other)].until; };
+  *std::ranges::min_element(refused, {}, until) = body;  // no room: that which would end first ends now
+}
+
+void HapticRateModule::endWaits() noexcept {
+  BoundedList<std::int32_t>& refused = out_.value.refused;
+  for (std::size_t r = refused.size(); r-- > 0;) {
+    if (now_ >= waits_[index(refused[r])].until) refused.remove(r);
+  }
 }
 
 void HapticRateModule::leaveUntouched() noexcept {
@@ -333,11 +360,7 @@ void HapticRateModule::write() noexcept {
   out.time = now_;
   out.bodies.clear();
   for (const Entry& entry : entries_) out.bodies.add(entry.held);
-  out.refused.clear();
-  forEachTouched(fingers_.value(), is_free_, [&](std::size_t i) {
-    if (const Entry* entry = find(i); entry == nullptr || !isHeld(*entry))
-      out.refused.add(static_cast<std::int32_t>(i));
-  });
+  endWaits();
   bodies_->writeCounts(out.counted);
   show();
 }

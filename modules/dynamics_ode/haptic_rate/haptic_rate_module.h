@@ -17,8 +17,8 @@ namespace presa::ode {
 
 /// Moves the bodies that fingers hold, and what stands on them, in the haptic tick (Harwin and Barrow, section 6.2). In:
 /// object state, contact exchange of the last tick. Out: held bodies, and the object state as it is shown. A body is
-/// taken over from the dynamics, with all that it is in contact with, when a finger touches it, or when it meets such a
-/// body. It is given back when no finger holds its group for kLetGo, or when the group grows beyond
+/// taken over from the dynamics, with all that it is in contact with, when a finger touches it, or when it is about to meet
+/// such a body. It is given back when no finger holds its group for kLetGo, or when the group grows beyond
 /// DynamicsSettings::max_held. Thread: haptic; nonblocking after start().
 class HapticRateModule final : public Module, public PluginHost {
  public:
@@ -52,6 +52,9 @@ class HapticRateModule final : public Module, public PluginHost {
   struct Wait {
     double until = 0, next = kFirstWait;  // [s]
   };
+  struct Velocity {
+    Vec3 v_WB = Vec3::Zero(), w_WB = Vec3::Zero();  // [m/s, rad/s]
+  };
   /// Of the entries of one group.
   struct Group {
     std::size_t size = 0;
@@ -68,8 +71,10 @@ class HapticRateModule final : public Module, public PluginHost {
   bool isHeld(const Entry& entry) const noexcept { return entry.held.phase == HeldBody::Phase::kHeld; }
   bool moves(const Entry& entry) const noexcept { return entry.held.phase != HeldBody::Phase::kGivenBack; }
   Entry* find(std::size_t body) noexcept;
+  void noteVelocities() noexcept;
   BodyMotion inDynamics(std::size_t body) const noexcept;
   BodyMotion shown(std::size_t body) noexcept;
+  BodyMotion shownNow(std::size_t body) noexcept;
   bool isNear(std::size_t body, const Vec3& p_W) const noexcept;
   Vec3 velocityAt(std::size_t body, const Vec3& p_W) noexcept;
   bool meet(const BodyContact& contact) noexcept;
@@ -77,7 +82,7 @@ class HapticRateModule final : public Module, public PluginHost {
   void readBack() noexcept;
   void completeReturns() noexcept;
   void markTouched(const ContactExchange& fingers) noexcept;
-  void touch(std::size_t body) noexcept;
+  void touch(std::int32_t body) noexcept;
   std::size_t takeIsland(std::size_t body, const Joined& to) noexcept;
   void take(std::size_t body, const Joined& to) noexcept;
   void findGroups() noexcept;
@@ -85,6 +90,7 @@ class HapticRateModule final : public Module, public PluginHost {
   void leave(Entry& entry) noexcept;
   void giveBack(std::size_t group) noexcept;
   void wait(std::size_t body) noexcept;
+  void endWaits() noexcept;
   void leaveUntouched() noexcept;
   void write() noexcept;
   void show() noexcept;
@@ -102,8 +108,11 @@ class HapticRateModule final : public Module, public PluginHost {
   std::vector<char> is_free_;         // by body
   std::vector<Wait> waits_;           // by body
   std::vector<Reach> reaches_;        // by body
+  std::vector<Velocity> at_begin_;    // by body: when the newest motion of the dynamics begins
+  std::vector<Velocity> at_end_;      // and when it ends
   BoundedList<Entry> entries_;
   std::vector<Group> groups_;  // by least entry
+  std::uint64_t noted_ = 0;    // version of the object state that at_end_ is of
   std::uint64_t copied_ = 0;   // version of the object state that shown_objects_ was copied from
   double now_ = 0;             // [s]
 };

@@ -32,7 +32,7 @@ struct HeldBody {
 struct HeldBodies {
   double time = 0;               ///< [s]
   BoundedList<HeldBody> bodies;  ///< each at most once
-  /// Bodies that fingers touch and whose group is too large: on these alone do fingers act in the dynamics.
+  /// Bodies whose group is too large, until it is tried again: on these alone do fingers act in the dynamics.
   BoundedList<std::int32_t> refused;
   std::uint64_t taken = 0;     ///< since the start: bodies taken over from the dynamics
   std::uint64_t too_many = 0;  ///< since the start: how often a group was too large: not taken over, or given back
