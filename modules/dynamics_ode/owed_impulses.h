@@ -21,8 +21,9 @@ class OwedImpulses {
     bool moves = false;                // in this step; else it will be moved from the next one on, or elsewhere
     bool is_new = true;                // no contact of this finger in the exchange before
     bool touches = false;              // in this step's exchange
-    Vec3 p_BP = Vec3::Zero();          // where the finger's force acts, coordinates of the body [m]
-    Vec3 p_BP_before = Vec3::Zero();   // the same in the step before
+    Vec3 p_BP = Vec3::Zero();           // where the finger's force acts, coordinates of the body [m]
+    Vec3 p_WP = Vec3::Zero();           // the same in this step
+    Vec3 p_WP_before = Vec3::Zero();    // in the step before
     Vec3 felt_W = Vec3::Zero();        // by the finger, on the body, to be given in this step [N s]
     Vec3 taken_back_W = Vec3::Zero();  // what the step before predicted, the other way [N s]
     Vec3 predicted_W = Vec3::Zero();   // in this step [N s]
@@ -34,7 +35,7 @@ class OwedImpulses {
   /// Before a step of `period` [s].
   void read(const ContactExchange& exchange, double period, const BodySet& bodies);
   /// In each sub-step, after BodySet::resetForces: the mean force over the period.
-  void push(BodySet& bodies) const;
+  void push(BodySet& bodies);
   /// After the solve of a sub-step of `h` [s].
   void notePredicted(const FingerJoints& fingers, double h);
   const BoundedList<Owed>& all() const noexcept { return all_; }

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "framework/scene/load.h"
+#include "tests/support/edited.h"
 
 /// A small scene, functions that edit it, and the place that an edit marks.
 namespace presa::scene_test {
+
+using test::edited;
 
 inline const std::string kScene = R"(<?xml version="1.0" encoding="UTF-8"?>
 <!-- Größe: characters of two bytes before a tag on the same line --> <scene version="1.0" name="test"
@@ -33,14 +36,6 @@ inline const std::string kScene = R"(<?xml version="1.0" encoding="UTF-8"?>
   </devices>
 </scene>
 )";
-
-/// `text` with the one occurrence of `from` replaced.
-inline std::string edited(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << "the text does not hold " << from;
-  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << "the text holds twice " << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 /// A text with one '@' as a mark. Line and column are counted here, independently of the reader.
 struct Marked {

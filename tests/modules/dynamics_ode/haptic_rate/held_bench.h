@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,8 +31,10 @@ class HeldEye final : public Module {
   std::function<void(const Tick&)> look;
 };
 
+inline const std::array<std::string, 3> kRoles{"thumb", "index", "middle"};
+
 /// Free cubes of 40 mm and 0.1 kg at these x, on a floor or in free space.
-inline std::string cubesXml(const std::vector<double>& at, bool floor, int max_held = 3) {
+inline std::string cubesXml(const std::vector<double>& at, bool floor, int max_held = 3, std::size_t fingers = 2) {
   const std::string box = "<box size=\"0.04 0.04 0.04\"/>";
   std::string xml =
       R"(<scene version="1.0" name="cubes"><world gravity="0 0 )" + std::string(floor ? "-9.81" : "0") +
@@ -45,9 +48,12 @@ inline std::string cubesXml(const std::vector<double>& at, bool floor, int max_h
     xml += "<body name=\"cube" + std::to_string(i) + "\" material=\"skin\" pos=\"" + std::to_string(at[i]) +
            " 0 0.02\"><haptic>" + box + "</haptic><physics mass=\"0.1\">" + box + "</physics></body>";
   }
-  return xml +
-         R"(<devices><device role="thumb" fingertip_radius="0.008"><limits force="100" force_rate="100000"/></device>
-    <device role="index" fingertip_radius="0.008"><limits force="100" force_rate="100000"/></device></devices></scene>)";
+  xml += "<devices>";
+  for (std::size_t f = 0; f < fingers; ++f) {
+    xml += "<device role=\"" + kRoles.at(f) +
+           "\" fingertip_radius=\"0.008\"><limits force=\"100\" force_rate=\"100000\"/></device>";
+  }
+  return xml + "</devices></scene>";
 }
 
 /// A session of that scene whose fingertips follow these paths.
@@ -56,10 +62,9 @@ struct Bench {
     Diagnostics diagnostics;
     RunOptions options;
     options.bus = BusSettings{.network = "none"};
-    Loaded loaded = loadWithoutDevices({xml, "cubes.xml",
-                                        R"(<rig version="1.0" name="desk"><device role="thumb" driver="scripted"/>
-                                           <device role="index" driver="scripted"/></rig>)"},
-                                       options, diagnostics);
+    std::string rig = "<rig version=\"1.0\" name=\"desk\">";
+    for (std::size_t f = 0; f < paths.size(); ++f) rig += "<device role=\"" + kRoles.at(f) + "\" driver=\"scripted\"/>";
+    Loaded loaded = loadWithoutDevices({xml, "cubes.xml", rig + "</rig>"}, options, diagnostics);
     if (diagnostics.hasErrors()) throw InputError(diagnostics);
     Session::Options session_options;
     for (const auto& path : paths) session_options.devices.push_back(std::make_unique<PrescribedFinger>(path));
