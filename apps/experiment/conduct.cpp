@@ -26,9 +26,11 @@ class Conductor {
 
  private:
   bool presentAll() {
-    for (const Presentation& presentation : presentationsOf(experiment_, trial_)) {
+    const std::vector<Presentation> all = presentationsOf(experiment_, trial_);
+    for (const Presentation& presentation : all) {
       if (!result_.presented.empty() && !pause()) return false;
-      if (!show(presentation)) return false;
+      const bool is_last = result_.presented.size() + 1 == all.size();
+      if (!show(presentation, is_last && experiment_.procedure)) return false;
     }
     return true;
   }
@@ -39,8 +41,8 @@ class Conductor {
     psychophysics::Adjuster adjuster(plan, trial_.stimulus->level);
     const Presentation standard = presentationsOf(experiment_, trial_).front();
     for (int round = 1; round <= static_cast<int>(experiment_.procedure->rounds); ++round) {
-      if (!show(standard) || !pause()) return false;
-      if (!show(comparisonAt(experiment_, trial_, adjuster.level()))) return false;
+      if (!show(standard, false) || !pause()) return false;
+      if (!show(comparisonAt(experiment_, trial_, adjuster.level()), true)) return false;
       const auto key = respondent_->adjust(trial_, *(result_.presented.end() - 2), result_.presented.back(), round);
       if (!key) {
         result_.unanswered = true;
@@ -55,9 +57,10 @@ class Conductor {
     return false;
   }
 
-  /// Runs one presentation. False: the trial ended in it.
-  bool show(const Presentation& presentation) {
+  /// Runs one presentation, `asks`: before the question. False: the trial ended in it.
+  bool show(const Presentation& presentation, bool asks) {
     TrialSetting setting = setting_;
+    setting.asks = asks;
     if (!files_.empty()) setting.record = files_[result_.presented.size()];
     // each presentation has its own random stream; the first one has the trial's seed
     const std::uint64_t seed = trial_.seed + result_.presented.size();

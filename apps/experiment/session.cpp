@@ -178,6 +178,7 @@ Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun&
   setting.subject = log_.start.subject.number;
   setting.live = console.live();
   setting.window = log_.start.window;
+  setting.language = console.language();
   setting.stop = [&] { return console.ending() != Operator::Request::kNone; };
   setting.on_time = [&](double time) { console.look(time); };
   Conducted result = conduct(experiment_, trial, files, setting, respondent);

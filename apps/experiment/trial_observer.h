@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "experiments/runner/definition/sample_names.h"
 #include "experiments/runner/definition/trial.h"
@@ -26,7 +27,9 @@ class TrialObserver final : public HapticObserver {
     if (trial_.state() != Trial::State::kRunning || lost_finger_ >= 0) return;
     reader_.read(sample.tick.time, sample.device, sample.contact, sample.command, sample.objects, trial_.samples());
     updateQuality(sample);
-    if (trial_.step(sample.tick.time) != Trial::State::kRunning || lost_finger_ >= 0)
+    const Trial::State state = trial_.step(sample.tick.time);
+    phase_.store(trial_.phase(), std::memory_order_relaxed);
+    if (state != Trial::State::kRunning || lost_finger_ >= 0)
       control_.stop_requested.store(true, std::memory_order_relaxed);
   }
   std::vector<std::string> stages() const override { return {"step the trial: guards, measures, quality"}; }
@@ -36,6 +39,8 @@ class TrialObserver final : public HapticObserver {
   /// Index of the first finger whose device was silent for longer than kLost; -1: none.
   int lostFinger() const noexcept { return lost_finger_; }
   static constexpr double kLost = 0.1;  ///< [s] well after the forces have faded; the trial is invalid then
+  /// Index of the current phase. Thread: any.
+  std::size_t phase() const noexcept { return phase_.load(std::memory_order_relaxed); }
   double maxForce() const noexcept { return max_force_; }
   double time() const noexcept { return time_; }
 
@@ -59,6 +64,7 @@ class TrialObserver final : public HapticObserver {
   SampleReader reader_;
   std::vector<double> silent_;  // by finger [s] since the last sample
   int lost_finger_ = -1;
+  std::atomic<std::size_t> phase_{0};
   double clipped_ = 0, lost_ = 0, max_force_ = 0, time_ = 0;
 };
 

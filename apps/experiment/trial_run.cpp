@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/common/terminal/prompt_end.h"
+#include "apps/experiment/participant.h"
 #include "apps/experiment/surface_switch.h"
 #include "apps/experiment/trial_observer.h"
 #include "framework/session/realtime_policy.h"
@@ -55,7 +56,10 @@ Loaded load(const Experiment& experiment, const Presentation& presentation, std:
             const TrialSetting& setting) {
   RunOptions options;
   options.realtime = setting.realtime;
-  if (setting.window) options.view = RunOptions::View::kWindow;
+  if (setting.window) {
+    options.view = RunOptions::View::kWindow;
+    options.participant = screenAfter(experiment, setting.language, setting.asks);
+  }
   options.duration = longestOf(experiment);
   options.seed = seed;
   options.record = setting.record;
@@ -82,7 +86,9 @@ class TrialRun {
       options.more.push_back(std::make_unique<OperatorObserver>(trial_, experiment, *setting.live));
     }
     if (experiment.changesFriction()) options.more.push_back(std::make_unique<SurfaceSwitch>(trial_));
+    ParticipantDirector* const director = setting.window ? addDirector(experiment, options) : nullptr;
     run_.emplace(std::move(loaded), control_, std::move(options));
+    if (director != nullptr) director->showOn(run_->session().view());
     run_->onPoll([this] { poll(); });
   }
 
@@ -95,6 +101,15 @@ class TrialRun {
   }
 
  private:
+  ParticipantDirector* addDirector(const Experiment& experiment, Session::Options& options) {
+    std::vector<ParticipantScreen> screens;
+    for (const Phase& phase : experiment.phases) screens.push_back(screenIn(experiment, phase, setting_.language));
+    auto director = std::make_unique<ParticipantDirector>(*observer_, std::move(screens));
+    ParticipantDirector* const made = director.get();
+    options.more.push_back(std::move(director));
+    return made;
+  }
+
   void poll() {
     if (setting_.on_time) setting_.on_time(control_.time.load(std::memory_order_relaxed));
     const View* view = run_->session().view();

@@ -13,7 +13,9 @@ namespace presa::experiment {
 struct TrialSetting {
   std::string record{};  ///< HDF5 file; empty: no recording
   bool realtime = false;
-  bool window = false;                    ///< the participant sees the scene
+  bool window = false;                    ///< the participant has a window
+  std::string language = "en";            ///< of the texts in it
+  bool asks = false;                      ///< the question follows this presentation
   int subject = 1;                        ///< number of the subject; selects the simulated person
   TrialLive* live = nullptr;              ///< live values for the operator; null: no display
   std::function<bool()> stop{};           ///< polled on the main thread: true ends the trial

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/scene/participant_screen.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
@@ -28,7 +29,10 @@ struct RunOptions {
   std::string record{};             ///< HDF5 path, may be empty
   bool overwrite = false;           ///< `record` may replace an existing file
   std::vector<std::string> show{};  ///< overlays to show or hide in the picture: "haptic", "no-cones"
-  std::string video{};              ///< MP4 path, may be empty
+  /// The picture is for the participant of an experiment, and its window stays open for the next run of the process. The
+  /// screen is what the window keeps showing between the runs; without bodies and fingertips it is black.
+  std::optional<ParticipantScreen> participant{};
+  std::string video{};   ///< MP4 path, may be empty
   std::string flight{};  ///< HDF5 path for the last seconds before a fault, when `record` is empty; may be empty
   /// As `flight`, for a run that drives real hardware in real time.
   std::string hardware_flight{};

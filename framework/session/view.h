@@ -7,6 +7,7 @@
 
 #include "framework/core/graph/module.h"
 #include "framework/core/schedule/timing_stats.h"
+#include "framework/scene/participant_screen.h"
 
 namespace presa {
 
@@ -51,6 +52,10 @@ class View : public Module {
   /// Shows a line under the time until the next one; an alarm is red. On the thread of the view, between start() and
   /// stop().
   virtual void setBanner(const std::string& text, bool alarm) = 0;
+
+  /// What the participant sees from the next frame on, in runs with RunOptions::participant. On the thread of the view,
+  /// between start() and stop().
+  virtual void setScreen(const ParticipantScreen& screen) = 0;
 
   /// Timings of the groups for the head-up display, by RateGroup; null for groups without one. They must outlive the
   /// view, which reads them while the groups run: the figures shown are approximate. Call before start().

@@ -50,6 +50,18 @@ std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) 
   return fingers;
 }
 
+std::vector<FingerView> withoutMeasured(std::vector<FingerView> fingers) {
+  for (FingerView& finger : fingers) {
+    finger.mode = ContactMode::kNone;
+    finger.body = kNoBody;
+    finger.p_WH = finger.p_WC = finger.p_WP;
+    finger.nhat_W = Vec3::UnitZ();
+    finger.f_H_W = Vec3::Zero();
+    finger.normal_force = finger.tangential_force = finger.friction = finger.friction_static = 0;
+  }
+  return fingers;
+}
+
 double gripForce(const std::vector<FingerView>& fingers) {
   double grip = 0;
   for (const FingerView& first : fingers) {

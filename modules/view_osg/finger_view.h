@@ -39,6 +39,9 @@ struct FingerView {
 /// surface.
 std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame);
 
+/// The same without anything measured: free fingertips where they are seen, whatever they feel.
+std::vector<FingerView> withoutMeasured(std::vector<FingerView> fingers);
+
 /// Grip force on the body gripped hardest [N]: half of the normal forces that cancel, (sum |n| - |sum n|) / 2.
 /// Two opposed fingers of n newton give n; one finger gives 0.
 double gripForce(const std::vector<FingerView>& fingers);

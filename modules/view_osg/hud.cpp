@@ -76,9 +76,11 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   // parent)
   state->setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
   camera_->addChild(content_);
-  content_->addChild(left_);
-  content_->addChild(right_);
-  content_->addChild(center_);
+  content_->addChild(figures_);
+  content_->addChild(participant_);
+  figures_->addChild(left_);
+  figures_->addChild(right_);
+  figures_->addChild(center_);
   right_->addChild(right_figures_);
   left_->addChild(left_figures_);
   center_->addChild(legend_);
@@ -105,7 +107,10 @@ void Hud::setAspect(double aspect) {
   camera_->setProjectionMatrixAsOrtho(0, width, 0, kHeight, -1, 1);
   right_->setMatrix(osg::Matrixd::translate(width, 0, 0));
   center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
+  participant_->setMatrix(center_->getMatrix());
 }
+
+void Hud::showFigures(bool shown) { figures_->setNodeMask(shown ? ~0U : 0U); }
 
 void Hud::toggleHelp() {
   help_->setNodeMask(~help_->getNodeMask());

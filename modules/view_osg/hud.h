@@ -28,6 +28,9 @@ class Hud {
   osg::Group& left() { return *left_; }
   osg::Group& right() { return *right_; }
   osg::Group& center() { return *center_; }
+  /// A group with its origin in the middle that stays when the figures are hidden.
+  osg::Group& participantCenter() { return *participant_; }
+  void showFigures(bool shown);
   void update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings);
   /// Sets width over height of the picture; items at the right edge move with it.
   void setAspect(double aspect);
@@ -61,8 +64,10 @@ class Hud {
   osg::ref_ptr<osg::Camera> camera_ = new osg::Camera;
   osg::ref_ptr<osg::Group> content_ = new osg::Group;
   osg::ref_ptr<osg::Group> left_ = new osg::Group;
-  osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;   ///< x = 0 is the right edge
-  osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;  ///< origin in the middle
+  osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;        ///< x = 0 is the right edge
+  osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;       ///< origin in the middle
+  osg::ref_ptr<osg::MatrixTransform> participant_ = new osg::MatrixTransform;  ///< origin in the middle
+  osg::ref_ptr<osg::Group> figures_ = new osg::Group;                          ///< all but `participant_`
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
   /// In an assembly task, rates and fingers are shown only with the help, and the legend gives way to the assembly
   /// panel.

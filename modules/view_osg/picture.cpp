@@ -57,6 +57,27 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   root_->addChild(space_);
   root_->addChild(hud_.camera());
   setQuick(false);
+  if (!options.participant) return;
+  panel_.emplace(hud_.participantCenter());
+  setScreen({});
+}
+
+void Picture::setScreen(const ParticipantScreen& screen) {
+  if (!panel_) return;
+  screen_ = screen;
+  panel_->show(screen);
+  hud_.showFigures(screen.measured);
+}
+
+// A participant's screen decides; keys do not.
+ShownParts Picture::partsNow() const {
+  if (!screen_) return parts_;
+  ShownParts parts;
+  parts.set(ShownPart::kVisual, screen_->bodies);
+  parts.set(ShownPart::kProxies, screen_->fingertips);
+  for (const ShownPart part : {ShownPart::kHips, ShownPart::kCones, ShownPart::kForces})
+    parts.set(part, screen_->measured);
+  return parts;
 }
 
 void Picture::setQuick(bool quick) {
@@ -110,23 +131,25 @@ bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& finge
 }
 
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
-  const std::vector<FingerView> fingers = fingerViews(*world_, frame);
+  std::vector<FingerView> fingers = fingerViews(*world_, frame);
+  if (screen_ && !screen_->measured) fingers = withoutMeasured(std::move(fingers));
+  const ShownParts parts = partsNow();
   bodies_.setPoses(frame.X_WB);
-  bodies_.show(parts_[ShownPart::kVisual]);
+  bodies_.show(parts[ShownPart::kVisual]);
   glyphs_.update(fingers);
   if (guides_ && frame.guidance) {
     guides_->update(*frame.guidance, frame.X_WB, frame.time);
     const Guidance& told = *frame.guidance;
     lighting_.setGlow(told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0);
   }
-  glyphs_.show(parts_);
-  overlays_.update(parts_, frame.X_WB, frame.asleep);
-  neighbourhoods_.update(parts_[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);
-  relief_.update(parts_[ShownPart::kTexture], frame.contacts, frame.X_WB);
+  glyphs_.show(parts);
+  overlays_.update(parts, frame.X_WB, frame.asleep);
+  neighbourhoods_.update(parts[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);
+  relief_.update(parts[ShownPart::kTexture], frame.contacts, frame.X_WB);
   hud_.update(frame, fingers, timings);
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);
-  plots_.update(parts_[ShownPart::kPlots]);
+  plots_.update(parts[ShownPart::kPlots]);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <osg/Group>
 
 #include "framework/scene/run_options.h"
@@ -12,6 +13,7 @@
 #include "modules/view_osg/lighting.h"
 #include "modules/view_osg/neighbourhood_lines.h"
 #include "modules/view_osg/overlays.h"
+#include "modules/view_osg/participant_panel.h"
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
 #include "modules/view_osg/time_bar.h"
@@ -35,19 +37,22 @@ class Picture {
     if (parts_[ShownPart::kPlots]) plots_.add(frame, timings);
   }
   void show(const ViewFrame& frame, const GroupTimings& timings);
+  /// What a participant sees from the next frame on; only in runs with RunOptions::participant.
+  void setScreen(const ParticipantScreen& screen);
   const BodyNodes& bodies() const { return bodies_; }
   /// Selects the body shown in the card; none hides it.
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// The balls that must be in the picture: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
   /// Argument of frameSubject: in an assembly task there are no cards at the sides.
-  double usedWidth() const { return world_->scene.assembly ? kWholeWidth : kBetweenCards; }
+  double usedWidth() const { return world_->scene.assembly || screen_ ? kWholeWidth : kBetweenCards; }
   /// Simplifies the picture for software rendering.
   void setQuick(bool quick);
   /// Size of the three-dimensional part [pixel].
   void setSize(int width, int height);
 
  private:
+  ShownParts partsNow() const;
   bool moved(const ViewFrame& frame, const std::vector<FingerView>& fingers);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
@@ -66,6 +71,8 @@ class Picture {
   BodyCard card_;
   TimeBar time_bar_;
   Plots plots_;
+  std::optional<ParticipantScreen> screen_;  // only for a participant
+  std::optional<ParticipantPanel> panel_;    // with screen_
   std::vector<Ball> subject_;
   osg::ref_ptr<osg::Group> floor_ = new osg::Group;
   Vec3 floor_center_ = Vec3::Zero();

@@ -15,6 +15,7 @@ class ShownParts {
   explicit ShownParts(const std::vector<std::string>& names);
 
   bool operator[](ShownPart part) const { return shown_[static_cast<std::size_t>(part)]; }
+  void set(ShownPart part, bool shown) { shown_[static_cast<std::size_t>(part)] = shown; }
   void toggle(ShownPart part) { shown_[static_cast<std::size_t>(part)] = !(*this)[part]; }
 
  private:

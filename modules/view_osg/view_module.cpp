@@ -54,10 +54,13 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
-    renderer_ = windowed()
-                    ? makeWindowRenderer(*picture_, "Presa \xe2\x80\x93 " + world_->scene.name,
-                                         {pointer_ ? &*pointer_ : nullptr, time_, world_->scene.assembly.has_value()})
-                    : makeOffscreenRenderer(*picture_);
+    renderer_ = windowed() ? makeWindowRenderer(
+                                 *picture_, options_.participant ? "Presa" : "Presa \xe2\x80\x93 " + world_->scene.name,
+                                 {.pointer = pointer_ ? &*pointer_ : nullptr,
+                                  .time = time_,
+                                  .undo = world_->scene.assembly.has_value(),
+                                  .participant = options_.participant.has_value()})
+                           : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),
@@ -85,12 +88,20 @@ void ViewModule::step(const Tick& tick) noexcept {
 void ViewModule::stop() {
   if (renderer_ && screenshot_.outcome == Screenshot::Outcome::kPending) saveScreenshot();
   if (video_) video_trouble_ = video_->finish();
+  if (renderer_ && windowed() && !broken_ && options_.participant) {
+    setScreen(*options_.participant);
+    refresh();
+  }
   renderer_.reset();
   picture_.reset();
 }
 
 void ViewModule::setBanner(const std::string& text, bool alarm) {
   if (picture_) picture_->hud().setBanner(text, alarm);
+}
+
+void ViewModule::setScreen(const ParticipantScreen& screen) {
+  if (picture_) picture_->setScreen(screen);
 }
 
 void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {

@@ -37,6 +37,7 @@ class ViewModule final : public View {
   Screenshot screenshot() const override { return screenshot_; }
   std::string videoTrouble() const override { return video_trouble_; }
   void setBanner(const std::string& text, bool alarm) override;
+  void setScreen(const ParticipantScreen& screen) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
   void offerPointer(const std::vector<std::size_t>& fingers) override;
   void offerTime(TimeControl& time_control, double length) noexcept override;

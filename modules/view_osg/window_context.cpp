@@ -57,4 +57,10 @@ WindowContext openWindow(const std::string& title, int width, int height) {
   return {smooth, false};
 }
 
+WindowContext participantWindow(const std::string& title, int width, int height) {
+  static WindowContext* const window = new WindowContext;  // outlives the objects of the graphics library
+  if (!window->context || !window->context->isRealized()) *window = openWindow(title, width, height);
+  return *window;
+}
+
 }  // namespace presa::view

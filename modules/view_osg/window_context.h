@@ -13,4 +13,8 @@ struct WindowContext {
 /// such a visual. Throws std::runtime_error with the reason.
 WindowContext openWindow(const std::string& title, int width, int height);
 
+/// The window of this process for the participant of an experiment: opened at the first call and whenever it was closed.
+/// Otherwise it stays open until the process ends, with what was drawn last. Thread: one at a time.
+WindowContext participantWindow(const std::string& title, int width, int height);
+
 }  // namespace presa::view

@@ -45,14 +45,14 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       drag(at_ - before);
       return true;
     case Event::RELEASE:
-      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && drag_ != Drag::kNone && drag_ != Drag::kTime &&
-          dragged_ < kStill)
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && !controls_.participant && drag_ != Drag::kNone &&
+          drag_ != Drag::kTime && dragged_ < kStill)
         click(event, false);
       drag_ = Drag::kNone;
       return true;
     case Event::DOUBLECLICK:
       drag_ = Drag::kNone;
-      if (event.getButton() == Event::LEFT_MOUSE_BUTTON) click(event, true);
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && !controls_.participant) click(event, true);
       return true;
     case Event::SCROLL:
       scroll(event);
@@ -65,6 +65,10 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
 }
 
 WindowInput::Drag WindowInput::dragOf(const Event& event) const {
+  if (controls_.participant) {
+    if (controls_.pointer == nullptr || event.getButton() != Event::LEFT_MOUSE_BUTTON) return Drag::kNone;
+    return has(event, Event::MODKEY_SHIFT) ? Drag::kPairUpright : Drag::kPairLevel;
+  }
   switch (event.getButton()) {
     case Event::LEFT_MOUSE_BUTTON:
       if (controls_.time != nullptr && picture_.timeBar().momentAt(at_.x(), at_.y())) return Drag::kTime;
@@ -112,12 +116,14 @@ void WindowInput::scroll(const Event& event) {
   const bool up = event.getScrollingMotion() == Event::SCROLL_UP;
   if (!up && event.getScrollingMotion() != Event::SCROLL_DOWN) return;
   if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL)) return controls_.pointer->close(up ? 1 : -1);
+  if (controls_.participant) return;
   following = false;
   camera_.zoom(up ? 1 / kNotch : kNotch);
 }
 
 bool WindowInput::key(const Event& event) {
   const int key = event.getKey();
+  if (controls_.participant) return controls_.pointer != nullptr && pairKey(key, has(event, Event::MODKEY_SHIFT));
   switch (key) {
     case 's':
       picture_requested = true;

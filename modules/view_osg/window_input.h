@@ -14,6 +14,8 @@ struct Controls {
   PointerControl* pointer = nullptr;
   TimeControl* time = nullptr;
   bool undo = false;  ///< undo is available
+  /// The window is a participant's: only the pointer's mouse and keys act in it, and it stays open for the next run.
+  bool participant = false;
 };
 
 /// Counters since the start: undo requests, and inputs of any kind.

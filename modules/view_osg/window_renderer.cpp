@@ -21,8 +21,9 @@ constexpr double kFollowTime = 0.4;  ///< time constant of the camera [s]
 class WindowRenderer final : public Renderer {
  public:
   WindowRenderer(Picture& picture, const std::string& title, const Controls& controls)
-      : picture_(picture), input_(new WindowInput(picture, camera_, controls)) {
-    const WindowContext window = openWindow(title, kWidth, kHeight);
+      : picture_(picture), keep_(controls.participant), input_(new WindowInput(picture, camera_, controls)) {
+    const WindowContext window =
+        controls.participant ? participantWindow(title, kWidth, kHeight) : openWindow(title, kWidth, kHeight);
     window_ = window.context;
     if (window.software) {
       picture.setQuick(true);
@@ -32,10 +33,11 @@ class WindowRenderer final : public Renderer {
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
-    viewer_.setKeyEventSetsDone(osgGA::GUIEventAdapter::KEY_Escape);
+    viewer_.setKeyEventSetsDone(keep_ ? 0 : static_cast<int>(osgGA::GUIEventAdapter::KEY_Escape));
     osg::Camera* camera = viewer_.getCamera();
     camera->setGraphicsContext(window_);
-    camera->setViewport(0, 0, kWidth, kHeight);
+    const osg::GraphicsContext::Traits& size = *window_->getTraits();
+    camera->setViewport(0, 0, size.width, size.height);
     camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
     camera->setFinalDrawCallback(grabber_);
     viewer_.addEventHandler(input_);
@@ -44,14 +46,22 @@ class WindowRenderer final : public Renderer {
     for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
       help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
-    setSize(kWidth, kHeight, 1);
+    setSize(size.width, size.height, 1);
     viewer_.realize();
     if (!viewer_.isRealized()) throw std::runtime_error("the window opened, but it gives no OpenGL context");
   }
 
   ~WindowRenderer() override {
+    const bool stays = keep_ && !closed();
+    if (stays && window_->makeCurrent()) {
+      picture_.root()->releaseGLObjects(window_->getState());
+      window_->releaseContext();
+    }
     viewer_.setSceneData(nullptr);
-    if (window_->valid()) window_->close();
+    if (stays)
+      viewer_.getCamera()->setGraphicsContext(nullptr);  // else the viewer closes it
+    else if (window_->valid())
+      window_->close();
   }
 
   void render() override {
@@ -111,6 +121,7 @@ class WindowRenderer final : public Renderer {
   }
 
   Picture& picture_;
+  const bool keep_;  // the window stays open
   CameraControl camera_{static_cast<double>(kWidth) / kHeight};
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<WindowInput> input_;

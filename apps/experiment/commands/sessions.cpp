@@ -172,7 +172,8 @@ void addRunSession(Command app, int& status) {
   command.flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
   command.flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
   command.flag("--window", a->window,
-               "the participant sees the scene in a window; the operator's view stays in the terminal");
+               "a window for the participant: scene, fingertips, instructions, nothing that is measured "
+               "(<participant sees> of the experiment says otherwise); the operator's view stays in the terminal");
   addOperator(command, a->operator_choice);
   command.footer(
       "Exit status: 0 complete, 1 disk, device or dynamics failed, 2 bad input (nothing was run), 130 Ctrl-C (after 1 "

@@ -41,6 +41,13 @@ struct Design {
   int practice = 0;  ///< practice trials before trial 1, drawn from all conditions
 };
 
+/// What the participant sees in a window. Nothing that is measured, unless the experiment says so.
+struct Sight {
+  bool bodies = true, fingertips = true, instruction = true, question = true;
+  bool measured = false;  ///< forces, contact states, penetration: what an operator sees
+  bool fixation = false;  ///< a cross in the middle
+};
+
 /// One state of a trial. It ends when `until` has held for `hold` seconds; the trial is aborted when `abort` holds.
 struct Phase {
   enum class OnTimeout { kAbort, kNext };
@@ -50,7 +57,8 @@ struct Phase {
   double seconds = 0;  ///< longest duration [s]; with kNext the exact duration unless `until` is met earlier
   OnTimeout on_timeout = OnTimeout::kAbort;
   std::string abort_reason{};
-  bool changes_friction = false;           ///< at its start, surfaces switch to their changed friction (once per trial)
+  bool changes_friction = false;  ///< at its start, surfaces switch to their changed friction (once per trial)
+  Sight sees{};
   std::optional<Expression> event_when{};  ///< condition of that switch, over the same names as `until`; none: always
 };
 
@@ -107,6 +115,7 @@ struct Experiment {
   Design design;
   Retry retry;
   Rest rest;
+  Sight sees{};  ///< of the phases that do not say otherwise, and between them
   std::vector<Phase> phases;
   std::vector<Text> texts;
   std::vector<Measure> measures;

@@ -121,6 +121,7 @@ std::optional<Experiment> readExperiment(const std::string& file, const std::str
   readProcedure(root, experiment, diagnostics);
   readQualityNames(experiment);
   readDesign(root, experiment, diagnostics);
+  readParticipant(root, experiment);
   readPhases(root, experiment, diagnostics);
   readTexts(root, experiment, diagnostics);
   readWatch(root, experiment, diagnostics);

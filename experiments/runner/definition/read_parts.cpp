@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <sstream>
 
 #include "experiments/runner/definition/plan_size.h"
 #include "experiments/runner/definition/read.h"
@@ -80,6 +81,19 @@ void checkRepeats(const Element& element, const Experiment& experiment, Diagnost
       "at least 3 are needed");
 }
 
+/// A list such as "bodies fingertips"; the schema knows its words. "black" is none of them.
+Sight sightOf(const std::string& words) {
+  Sight sight{.bodies = false, .fingertips = false, .instruction = false, .question = false};
+  const std::pair<const char*, bool*> all[] = {{"bodies", &sight.bodies},           {"fingertips", &sight.fingertips},
+                                               {"instruction", &sight.instruction}, {"question", &sight.question},
+                                               {"measured", &sight.measured},       {"fixation", &sight.fixation}};
+  std::istringstream list(words);
+  for (std::string word; list >> word;) {
+    for (const auto& [name, seen] : all) *seen = *seen || word == name;
+  }
+  return sight;
+}
+
 }  // namespace
 
 void claimName(const Element& element, Experiment& experiment, Diagnostics& diagnostics) {
@@ -131,6 +145,10 @@ void readDesign(const Element& root, Experiment& experiment, Diagnostics& diagno
     experiment.rest = {static_cast<int>(element.number("every", 0)), element.number("seconds", 60)};
 }
 
+void readParticipant(const Element& root, Experiment& experiment) {
+  for (const Element& element : root.children("participant")) experiment.sees = sightOf(element.attribute("sees"));
+}
+
 void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   OneEach names("phase", diagnostics);
   SymbolTable seen = experiment.samples;  // guards may use the condition too
@@ -147,6 +165,7 @@ void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagno
     phase.on_timeout =
         element.attribute("on_timeout", fallback) == "abort" ? Phase::OnTimeout::kAbort : Phase::OnTimeout::kNext;
     phase.abort_reason = element.attribute("reason");
+    phase.sees = element.hasAttribute("sees") ? sightOf(element.attribute("sees")) : experiment.sees;
     readEvent(element, seen, experiment, phase, diagnostics);
     experiment.phases.push_back(std::move(phase));
   }

@@ -14,6 +14,8 @@ void readProcedure(const xml::Element& root, Experiment& experiment, Diagnostics
 void readObserver(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readQualityNames(Experiment& experiment);
 void readDesign(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
+/// Call it before readPhases.
+void readParticipant(const xml::Element& root, Experiment& experiment);
 void readPhases(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readTexts(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);
 void readWatch(const xml::Element& root, Experiment& experiment, Diagnostics& diagnostics);

@@ -36,6 +36,48 @@ class Changed : public testing::Test {
   const std::string file_ = fs::path(kGrip).parent_path() / ("changed_" + std::to_string(::getpid()) + ".xml");
 };
 
+/// What the participant sees, as words.
+std::string seen(const Sight& sees) {
+  std::string words;
+  for (const auto& [is_seen, word] : {std::pair(sees.bodies, "bodies"), std::pair(sees.fingertips, "fingertips"),
+                                      std::pair(sees.instruction, "instruction"), std::pair(sees.question, "question"),
+                                      std::pair(sees.fixation, "fixation"), std::pair(sees.measured, "measured")}) {
+    if (is_seen) words += (words.empty() ? "" : " ") + std::string(word);
+  }
+  return words;
+}
+
+// Nothing that is measured unless the experiment says so; a phase may differ from the rest.
+TEST(Read, SaysWhatTheParticipantSees) {
+  const std::string file = fs::path(kGrip).parent_path() / ("sees_" + std::to_string(::getpid()) + ".xml");
+  std::string text = contentsOf(kGrip);
+  const auto readText = [&] {
+    std::ofstream(file) << text;
+    Diagnostics diagnostics;
+    auto experiment = readExperiment(file, {}, diagnostics);
+    fs::remove(file);
+    EXPECT_TRUE(experiment) << diagnostics.text();
+    return std::move(*experiment);
+  };
+  const auto put = [&](const std::string& before, const std::string& what) { text.insert(text.find(before), what); };
+  EXPECT_EQ(seen(readText().phases.at(3).sees), "bodies fingertips instruction question");
+  put("<phase name=\"reach\"", "<participant sees=\"bodies fixation\"/>");
+  put("seconds=\"10\" abort", "sees=\"black\" ");
+  const Experiment experiment = readText();
+  EXPECT_EQ(seen(experiment.sees), "bodies fixation");
+  EXPECT_EQ(seen(experiment.phases.at(0).sees), "bodies fixation");
+  EXPECT_EQ(seen(experiment.phases.at(3).sees), "");
+  text.replace(text.find("bodies fixation"), 15, "measured");
+  EXPECT_EQ(seen(readText().sees), "measured");
+}
+
+TEST_F(Changed, ThePartsThatAParticipantMaySeeAreKnown) {
+  const std::string found =
+      findings("<phase name=\"reach\"", "<participant sees=\"bodies forces\"/><phase name=\"reach\"");
+  EXPECT_THAT(found, HasSubstr("'bodies forces'"));
+  EXPECT_THAT(found, HasSubstr("words out of bodies, fingertips, instruction"));
+}
+
 TEST(Read, TheGripStudyIsThatOfThePaper) {
   Diagnostics diagnostics;
   const auto experiment = readExperiment(kGrip, {}, diagnostics);

@@ -19,6 +19,7 @@ class CountingView final : public View {
   Screenshot screenshot() const override { return {}; }
   std::string videoTrouble() const override { return {}; }
   void setBanner(const std::string&, bool) override {}
+  void setScreen(const ParticipantScreen&) override {}
   void setTimings(const std::array<const GroupTiming*, kRateGroupCount>&) noexcept override {}
   void offerPointer(const std::vector<std::size_t>&) override {}
   void offerTime(TimeControl&, double) noexcept override {}

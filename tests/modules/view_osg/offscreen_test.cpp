@@ -9,38 +9,10 @@
 
 #include "modules/view_osg/view_module.h"
 #include "tests/modules/view_osg/pinch_world.h"
+#include "tests/modules/view_osg/png_picture.h"
 
 namespace presa::view_test {
 namespace {
-
-std::string tempFile(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "presa_view";
-  std::filesystem::create_directories(folder);
-  const std::string file = (folder / name).string();
-  std::filesystem::remove(file);
-  return file;
-}
-
-struct Color {
-  int r, g, b;
-};
-
-class PngPicture {
- public:
-  explicit PngPicture(const std::string& file) : image_(osgDB::readRefImageFile(file)) {
-    if (!image_) throw std::runtime_error("no picture " + file);
-  }
-  int width() const { return image_->s(); }
-  int height() const { return image_->t(); }
-  /// x from the left, y from the top.
-  Color at(int x, int y) const {
-    const unsigned char* p = image_->data(x, image_->t() - 1 - y);
-    return {p[0], p[1], p[2]};
-  }
-
- private:
-  osg::ref_ptr<osg::Image> image_;
-};
 
 /// The rubber: red is over 1.5 times green and blue in light or shadow (linear 0.75 : 0.25 : 0.2, sRGB 0.88 : 0.54 :
 /// 0.48).
@@ -58,17 +30,6 @@ Blob redBlob(const PngPicture& picture) {
   blob.x /= blob.pixels;
   blob.y /= blob.pixels;
   return blob;
-}
-
-/// Runs an off-screen view for one tick and returns the outcome of the picture.
-View::Screenshot drawOnce(const PinchRun& run, const PinchStates& states) {
-  view::ViewModule module(run.world, run.options);
-  Feed feed(module);
-  module.start();
-  feed.publish(states, 0.5);
-  module.step({30, 0.5, 1.0 / 60});
-  module.stop();
-  return module.screenshot();
 }
 
 class Offscreen : public testing::Test {

@@ -235,6 +235,42 @@ TEST(OnDisplay, DISABLED_MovesThePair) {
   EXPECT_EQ(view.pair().sequence, held.sequence);
 }
 
+// Two runs for a participant share a window, which stays open between them and answers no key.
+TEST(OnDisplay, DISABLED_StaysOpenForTheNextRun) {
+  const auto windows = [] {
+    std::vector<osg::GraphicsContext*> open;
+    for (osg::GraphicsContext* context : osg::GraphicsContext::getAllRegisteredGraphicsContexts()) {
+      if (context->valid() && context->isRealized()) open.push_back(context);
+    }
+    return open;
+  };
+  std::vector<osg::GraphicsContext*> first;
+  for (int run = 0; run < 3; ++run) {
+    const std::string file = testing::TempDir() + "presa_participant_" + std::to_string(getpid()) + ".png";
+    auto made = makePinchRun(RunOptions::View::kWindow, file);
+    made.options.participant = ParticipantScreen{.bodies = false, .fingertips = false, .text = "Which was heavier?"};
+    view::ViewModule module(made.world, made.options);
+    Feed feed(module);
+    module.start();
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      feed.publish(makePinchStates(*made.world, {0, 0, 0.08}), 0.1 * static_cast<double>(i));
+      for (osg::GraphicsContext* context : windows()) {
+        for (const int key : {int{osgGA::GUIEventAdapter::KEY_Escape}, int{'1'}, int{'?'}})
+          dynamic_cast<osgViewer::GraphicsWindow&>(*context).getEventQueue()->keyPress(key);
+      }
+      module.step({i, 0.1 * static_cast<double>(i), 1.0 / 60});
+      EXPECT_FALSE(module.wantsStop());
+    }
+    module.stop();
+    EXPECT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten) << module.screenshot().message;
+    EXPECT_GT(std::filesystem::file_size(file), 20000U);
+    std::filesystem::remove(file);
+    ASSERT_EQ(windows().size(), 1U);
+    if (run == 0) first = windows();
+    EXPECT_EQ(windows(), first);
+  }
+}
+
 /// Exit status of one of the tests above under its own X server; its output is in `log`.
 int onDisplay(const std::string& test, const std::string& log) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -247,6 +283,11 @@ int onDisplay(const std::string& test, const std::string& log) {
 TEST(Window, OpensDrawsAndClosesUnderXvfb) {
   const std::string log = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".log";
   EXPECT_EQ(onDisplay("DrawsFiveFrames", log), 0) << "see " << log;
+}
+
+TEST(Window, OfAParticipantStaysOpenUnderXvfb) {
+  const std::string log = testing::TempDir() + "presa_stays_" + std::to_string(getpid()) + ".log";
+  EXPECT_EQ(onDisplay("StaysOpenForTheNextRun", log), 0) << "see " << log;
 }
 
 TEST(Window, MovesThePairUnderXvfb) {
