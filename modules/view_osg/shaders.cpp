@@ -88,7 +88,10 @@ const vec2 kTaps[16] = vec2[](
 float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) { return 1.0; }
 #elif defined(QUICK)
 float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
-  return texture(map, (to_map * vec4(p, 1.0)).xyz);  // beyond the map nothing is in the way
+  vec3 c = (to_map * vec4(p, 1.0)).xyz;
+  vec2 inside = step(vec2(0.0), c.xy) * step(c.xy, vec2(1.0));
+  c.z = min(c.z, 1.0) * inside.x * inside.y;  // beyond the map nothing is in the way
+  return texture(map, c);
 }
 #else
 float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
