@@ -21,9 +21,9 @@ class OwedImpulses {
     bool moves = false;                // in this step; else it will be moved from the next one on, or elsewhere
     bool is_new = true;                // no contact of this finger in the exchange before
     bool touches = false;              // in this step's exchange
-    Vec3 p_BP = Vec3::Zero();           // where the finger's force acts, coordinates of the body [m]
-    Vec3 p_WP = Vec3::Zero();           // the same in this step
-    Vec3 p_WP_before = Vec3::Zero();    // in the step before
+    Vec3 p_BP = Vec3::Zero();          // where the finger's force acts, coordinates of the body [m]
+    Vec3 p_WP = Vec3::Zero();          // the same in this step
+    Vec3 p_WP_before = Vec3::Zero();   // in the step before
     Vec3 felt_W = Vec3::Zero();        // by the finger, on the body, to be given in this step [N s]
     Vec3 taken_back_W = Vec3::Zero();  // what the step before predicted, the other way [N s]
     Vec3 predicted_W = Vec3::Zero();   // in this step [N s]

@@ -70,7 +70,7 @@ struct ObjectState {
   std::uint64_t stopped_short = 0;  ///< since the start: how often a body was stopped short of passing through another
   std::uint64_t too_many_held = 0;  ///< how often a group of bodies was too large for the haptic thread to move
   double held_time = -1;  ///< of the newest bodies moved by the haptic thread that this state knows [s]; -1: none
-  double far_lag = 0;  ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
+  double far_lag = 0;     ///< since the start, for which bodies stood still that no finger reaches: late dynamics [s]
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;
   BoundedList<FingerImpulse> touches;  ///< the same by finger and moving body, of the contacts of the step just solved

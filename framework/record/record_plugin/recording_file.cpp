@@ -71,8 +71,9 @@ std::string linkName(std::string name) {
 Table scheduleTable() {
   Table table{sizeof(ScheduleRow), {}};
   table.columns.push_back({"index", offsetof(ScheduleRow, index), Cell::kU64, "1", "number of the group's tick"});
-  table.columns.push_back({"made_up", offsetof(ScheduleRow, catch_up), Cell::kU64, "1",
-                           "sum of 1: not sent to the device, as a newer tick was due; 2: the first after a gap; 4: run late"});
+  table.columns.push_back(
+      {"made_up", offsetof(ScheduleRow, catch_up), Cell::kU64, "1",
+       "sum of 1: not sent to the device, as a newer tick was due; 2: the first after a gap; 4: run late"});
   for (std::size_t i = 0; i < ScheduleRow::kMaxBridges; ++i) {
     table.columns.push_back(
         {"version_" + std::to_string(i), offsetof(ScheduleRow, versions) + i * sizeof(std::uint64_t), Cell::kU64, "1",
