@@ -69,7 +69,7 @@ TEST(HeldAtHapticRate, ABodyComesAndGoesWithoutAStep) {
 // A flicked cube flies off with the impulse that the finger felt, to rounding: the force begins and ends within a tick, and
 // the hand stops within one. Wherever in a step of the dynamics the touch begins, nothing is given twice or lost.
 TEST(HeldAtHapticRate, ABodyGetsExactlyWhatTheFingerFelt) {
-  constexpr double kSpeed = 0.5, kStop = 0.005, kMass = 0.1;  // of the finger [m/s, m], of the cube [kg]
+  constexpr double kSpeed = 0.5, kStop = 0.005, kCube = 0.1;  // of the finger [m/s, m], of the cube [kg]
   for (int later = 0; later < 5; ++later) {                   // ticks
     const auto flick = along([=](double t) {
       const double x = -0.0031 + kSpeed * (t - later * kTick);
@@ -94,7 +94,7 @@ TEST(HeldAtHapticRate, ABodyGetsExactlyWhatTheFingerFelt) {
     ASSERT_EQ(bench.eye->held->bodies.size(), 1U);
     ASSERT_EQ(bench.eye->held->bodies[0].phase, ode::HeldBody::Phase::kHeld);
     EXPECT_GT(first, 1);  // [N]
-    const Vec3 momentum = kMass * bench.cube(0).v_WB;
+    const Vec3 momentum = kCube * bench.cube(0).v_WB;
     EXPECT_GT(momentum.norm(), 0.05);
     EXPECT_LT((momentum + felt).norm(), 1e-12 * momentum.norm()) << "touched " << later << " ticks later";
   }
