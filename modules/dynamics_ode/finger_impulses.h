@@ -8,8 +8,8 @@
 
 namespace presa::ode {
 
-/// What the fingers gave to the bodies, what was owed to them included: the mean force of the last step by finger, the impulse since the start by
-/// finger, and the impulse by finger and body since the finger came to that body.
+/// What the fingers gave to the bodies, what was owed to them included: the mean force of the last step by finger, the
+/// impulse since the start by finger, and the impulse by finger and body since the finger came to that body.
 class FingerImpulses {
  public:
   explicit FingerImpulses(const Scene& scene);

@@ -77,8 +77,8 @@ class FingerJoints {
   std::vector<ContactProblem::Motor> torsion_;  // the same for Presa's own solvers
 };
 
-/// Calls use(finger, contact, body) for each contact of a finger with a moving body on which fingers act. Returns the number of invalid
-/// contacts.
+/// Calls use(finger, contact, body) for each contact of a finger with a moving body on which fingers act. Returns the
+/// number of invalid contacts.
 template <class Use>
 std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies, Use use) {
   std::size_t invalid = 0;

@@ -26,7 +26,7 @@ ActionReaction::ActionReaction(const Scene& scene)
   for (const Body& body : scene.bodies) free_.push_back(body.fixed ? 0 : 1);
   const bool held = scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
   givers_.assign(held ? 2 : 1, Giver(span_, touches_));
-  felt_.assign(held ? kTicksKept : 1, Sums{-1, touches_});
+  if (held) felt_.assign(kTicksKept, Sums{-1, touches_});
 }
 
 bool ActionReaction::moves(std::int32_t body) const noexcept {
@@ -55,9 +55,11 @@ void ActionReaction::add(const Tick& tick, const ContactExchange& contact, const
       if (Given* const given = one.until == FingerImpulse::kNoEnd ? own : held) given->impulses.add(one);
     }
   }
-  newest_ = (newest_ + 1) % felt_.size();
-  felt_[newest_].time = tick.time;
-  felt_[newest_].touches = touches_;
+  if (!felt_.empty()) {
+    newest_ = (newest_ + 1) % felt_.size();
+    felt_[newest_].time = tick.time;
+    felt_[newest_].touches = touches_;
+  }
   for (Giver& giver : givers_) pair(tick, giver);
   sum(tick, contact);
 }
@@ -94,7 +96,7 @@ const ActionReaction::Sums* ActionReaction::feltBy(double time) const noexcept {
     if (sums.time < time) return found;
     found = &sums;
   }
-  return felt_.size() == 1 ? found : nullptr;
+  return nullptr;
 }
 
 // Compares every step end that the rendered sums have reached by this tick.
@@ -105,16 +107,17 @@ void ActionReaction::pair(const Tick& tick, Giver& giver) noexcept {
     giver.pending_begin = (giver.pending_begin + 1) % giver.pending.size();
     --giver.pending_count;
     const Sums* const felt = feltBy(given.time - tolerance);
-    if (felt == nullptr) continue;
+    if (!felt_.empty() && felt == nullptr) continue;
+    const double time = felt_.empty() ? tick.time : felt->time;  // of the sums
     Sums& now = giver.ring[giver.count % giver.ring.size()];
     now.time = given.time;
     now.touches.clear();
-    for (const Touch& touch : felt->touches) {
+    for (const Touch& touch : felt_.empty() ? touches_ : felt->touches) {
       const FingerImpulse* impulse = find(given.impulses, touch.finger, touch.body);
       if (impulse == nullptr) continue;
       Touch* sums = now.touches.add(touch);
       // the force is held over a tick: subtract the part of the last tick that lies after the time of comparison
-      sums->rendered -= (felt->time - now.time) * touch.force;
+      sums->rendered -= (time - now.time) * touch.force;
       sums->given = impulse->impulse_W;
       sums->given_since = impulse->since;
     }

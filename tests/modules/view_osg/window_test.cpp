@@ -301,39 +301,22 @@ TEST(OnDisplay, DISABLED_ShadowsAgreeWithTheStill) {
   EXPECT_LT(darker, 0.01 * still.width() * still.height());
 }
 
-/// Exit status of one of the tests above under its own X server; its output is in `log`.
-int onDisplay(const std::string& test, const std::string& log) {
+/// One of the tests above passes under an X server of its own.
+void expectOnDisplay(const std::string& test) {
+  const std::string log = testing::TempDir() + "presa_" + test + "_" + std::to_string(getpid()) + ".log";
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  return std::system(("xvfb-run -a -s '-screen 0 1400x900x24' '" + program + "' --gtest_filter=OnDisplay.DISABLED_" +
-                      test + " --gtest_also_run_disabled_tests > '" + log + "' 2>&1")
-                         .c_str());
+  const std::string command = "xvfb-run -a -s '-screen 0 1400x900x24' '" + program +
+                              "' --gtest_filter=OnDisplay.DISABLED_" + test + " --gtest_also_run_disabled_tests > '" +
+                              log + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << "see " << log;
 }
 
 // The window must work on any X server, also with a software renderer: open, draw five frames, save, close.
-TEST(Window, OpensDrawsAndClosesUnderXvfb) {
-  const std::string log = testing::TempDir() + "presa_window_" + std::to_string(getpid()) + ".log";
-  EXPECT_EQ(onDisplay("DrawsFiveFrames", log), 0) << "see " << log;
-}
-
-TEST(Window, OfAParticipantStaysOpenUnderXvfb) {
-  const std::string log = testing::TempDir() + "presa_stays_" + std::to_string(getpid()) + ".log";
-  EXPECT_EQ(onDisplay("StaysOpenForTheNextRun", log), 0) << "see " << log;
-}
-
-TEST(Window, ShadowsAgreeWithTheStillUnderXvfb) {
-  const std::string log = testing::TempDir() + "presa_shadows_" + std::to_string(getpid()) + ".log";
-  EXPECT_EQ(onDisplay("ShadowsAgreeWithTheStill", log), 0) << "see " << log;
-}
-
-TEST(Window, MovesThePairUnderXvfb) {
-  const std::string log = testing::TempDir() + "presa_pair_" + std::to_string(getpid()) + ".log";
-  EXPECT_EQ(onDisplay("MovesThePair", log), 0) << "see " << log;
-}
-
-TEST(Window, AnswersKeysAndMouseUnderXvfb) {
-  const std::string log = testing::TempDir() + "presa_keys_" + std::to_string(getpid()) + ".log";
-  EXPECT_EQ(onDisplay("AnswersKeysAndMouse", log), 0) << "see " << log;
-}
+TEST(Window, OpensDrawsAndClosesUnderXvfb) { expectOnDisplay("DrawsFiveFrames"); }
+TEST(Window, OfAParticipantStaysOpenUnderXvfb) { expectOnDisplay("StaysOpenForTheNextRun"); }
+TEST(Window, ShadowsAgreeWithTheStillUnderXvfb) { expectOnDisplay("ShadowsAgreeWithTheStill"); }
+TEST(Window, MovesThePairUnderXvfb) { expectOnDisplay("MovesThePair"); }
+TEST(Window, AnswersKeysAndMouseUnderXvfb) { expectOnDisplay("AnswersKeysAndMouse"); }
 
 }  // namespace
 }  // namespace presa::view_test
