@@ -14,6 +14,7 @@ namespace {
 using terminal::format;
 using terminal::Style;
 using terminal::styled;
+using terminal::wrapped;
 
 Style styleOf(Verdict::Outcome outcome) {
   switch (outcome) {
@@ -38,17 +39,18 @@ std::string contactTable(const RunResult& result) {
   return out;
 }
 
+/// At most 80 columns, in real time, too.
 std::string rateTable(const RunResult& result) {
-  std::string out = format("  %-14s %9s %9s %9s %11s %11s", "rate", "Hz", "ticks", "late", "run p50 us", "run p99 us");
-  out += result.realtime ? format(" %12s %12s\n", "late p99 us", "late max us") : std::string("\n");
+  std::string out = format("  %-14s %6s %9s %7s %7s %7s", "rate", "Hz", "ticks", "late", "p50 us", "p99 us");
+  out += result.realtime ? format(" %8s %11s\n", "p99 late", "max late us") : std::string("\n");
   for (const RunResult::Rate& rate : result.rates) {
     const GroupTiming& timing = *rate.timing;
     const auto us = [](std::int64_t ns) { return static_cast<double>(ns) / 1000; };
-    out += format("  %-14s %9.0f %9llu %9llu %11.1f %11.1f", toString(rate.group), rate.rate_hz,
+    out += format("  %-14s %6.0f %9llu %7llu %7.1f %7.1f", toString(rate.group), rate.rate_hz,
                   static_cast<unsigned long long>(timing.ticks.load()),
                   static_cast<unsigned long long>(timing.missed.load()), us(timing.execution.percentile(0.5)),
                   us(timing.execution.percentile(0.99)));
-    out += result.realtime ? format(" %12.1f %12.1f\n", us(timing.lateness.percentile(0.99)), us(timing.lateness.max()))
+    out += result.realtime ? format(" %8.1f %11.1f\n", us(timing.lateness.percentile(0.99)), us(timing.lateness.max()))
                            : std::string("\n");
   }
   return out;
@@ -57,20 +59,21 @@ std::string rateTable(const RunResult& result) {
 }  // namespace
 
 std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
-                        bool color) {
+                        bool color, std::size_t columns) {
   const Verdict verdict = verdictOf(result);
-  std::string out = styled(printable(verdict.headline), styleOf(verdict.outcome), color) + "\n";
-  for (const std::string& detail : verdict.details) out += "  " + printableLines(detail) + "\n";
+  const auto lines = [columns](const std::string& text) { return wrapped("  " + text, columns, 4); };
+  std::string out = styled(wrapped(printable(verdict.headline), columns, 4), styleOf(verdict.outcome), color) + "\n";
+  for (const std::string& detail : verdict.details) out += lines(printableLines(detail)) + "\n";
   for (const std::string& warning : verdict.warnings)
-    out += "  " + styled("warning: " + printable(warning), Style::kWarning, color) + "\n";
+    out += styled(lines("warning: " + printable(warning)), Style::kWarning, color) + "\n";
   out += contactTable(result) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
   out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,
                 speed, hashText(result.state_hash).c_str());
   for (const std::string& missing : result.realtime_missing)
-    out += "  " + styled(missing, Style::kWarning, color) + "\n";
+    out += styled(lines(missing), Style::kWarning, color) + "\n";
   for (const RunResult::Fault& fault : result.faults) {
-    out += "  " + styled(format("%.3f s: ", fault.time) + printable(fault.text), Style::kBad, color) + "\n";
+    out += styled(lines(format("%.3f s: ", fault.time) + printable(fault.text)), Style::kBad, color) + "\n";
   }
   if (!result.recording.file.empty()) out += "  recording: " + result.recording.file + "\n";
   for (const std::string& file : result.flight_records)
@@ -81,7 +84,8 @@ std::string closingText(const RunResult& result, const std::string& summary_file
 }
 
 void printClosing(const RunResult& result, const std::string& summary_file, const std::string& report_file) {
-  std::fputs(closingText(result, summary_file, report_file, wantsColor(stdout)).c_str(), stdout);
+  std::fputs(closingText(result, summary_file, report_file, wantsColor(stdout), terminal::columnsOf(stdout)).c_str(),
+             stdout);
 }
 
 }  // namespace presa

@@ -1,6 +1,5 @@
 #include "apps/common/terminal/status_line.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kRefresh = 100'000'000;      // [ns] on a terminal
 constexpr std::int64_t kPlainLine = 2'000'000'000;  // [ns] in a log
-constexpr std::size_t kBarWidth = 20;
+constexpr std::size_t kBarMin = 4, kBarMax = 20;
 
 using terminal::Line;
 using terminal::Style;
@@ -47,17 +46,26 @@ const char* nameOf(ContactMode mode) {
 
 bool hasEnd(const LiveStatus& status) { return std::isfinite(status.duration) && status.duration > 0; }
 
-void addProgress(Line& line, const LiveStatus& status) {
-  if (!hasEnd(status)) {
-    line.add(terminal::format("%.1f s", status.time));
-    return;
-  }
+std::string timeText(const LiveStatus& status) {
+  return hasEnd(status) ? terminal::format("%.1f/%.1f s", status.time, status.duration)
+                        : terminal::format("%.1f s", status.time);
+}
+
+std::string fingerText(const LiveStatus::FingerStatus& finger) {
+  return terminal::format("%s %5.2f N %s", finger.name.c_str(), finger.normal_force, nameOf(finger.mode));
+}
+
+/// The bar is as long as the fingers leave room for; without an end, or where there is none, it is empty.
+std::string progressBar(const LiveStatus& status, std::size_t columns) {
+  std::size_t others = terminal::widthOf(timeText(status)) + 4;  // brackets and a gap
+  if (!status.phase.empty()) others += terminal::widthOf(printable(status.phase)) + 2;
+  for (const LiveStatus::FingerStatus& finger : status.fingers)
+    others += terminal::widthOf(printable(fingerText(finger))) + 2;
+  if (!hasEnd(status) || columns < others + kBarMin) return {};
+  const std::size_t width = std::min(kBarMax, columns - others);
   const double part = std::clamp(status.time / status.duration, 0.0, 1.0);
-  const auto filled = static_cast<std::size_t>(std::lround(part * static_cast<double>(kBarWidth)));
-  std::string bar = "[" + std::string(filled, '#');
-  bar += std::string(kBarWidth - filled, '.') + "]";
-  line.add(bar);
-  line.add(terminal::format("%.1f/%.1f s", status.time, status.duration));
+  const auto filled = static_cast<std::size_t>(std::lround(part * static_cast<double>(width)));
+  return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
 }
 
 void addTimeLeft(Line& line, const LiveStatus& status, double rate) {
@@ -68,21 +76,15 @@ void addTimeLeft(Line& line, const LiveStatus& status, double rate) {
            Style::kDim);
 }
 
-int terminalColumns() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
-}
-
 }  // namespace
 
 std::string statusText(const LiveStatus& status, double rate, std::size_t columns, bool color) {
   Line line(columns, color);
-  addProgress(line, status);
+  if (const std::string bar = progressBar(status, columns); !bar.empty()) line.add(bar);
+  line.add(timeText(status));
   if (!status.phase.empty()) line.add(status.phase, Style::kStrong);
   for (const LiveStatus::FingerStatus& finger : status.fingers) {
-    line.add(terminal::format("%s %5.2f N %s", finger.name.c_str(), finger.normal_force, nameOf(finger.mode)),
-             styleOf(finger.mode));
+    line.add(fingerText(finger), styleOf(finger.mode));
   }
   if (status.losses > 0) line.add(terminal::format("%u lost", status.losses), Style::kWarning);
   line.add(status.realtime ? terminal::format("%.0f Hz", rate) : terminal::format("%.1fx", rate));
@@ -112,7 +114,7 @@ void StatusLine::show(const LiveStatus& status) {
   if (quiet_) return;
   const double rate = recentRate(status);
   // one column stays free: a full line would wrap on some terminals
-  const std::size_t columns = terminal_ ? static_cast<std::size_t>(std::max(20, terminalColumns() - 1)) : 200;
+  const std::size_t columns = terminal_ ? std::max<std::size_t>(20, terminal::columnsOf(stderr) - 1) : 200;
   const std::string text = statusText(status, rate, columns, color_);
   if (terminal_) {
     std::fprintf(stderr, "\r\033[K%s", text.c_str());
@@ -137,7 +139,7 @@ double StatusLine::recentRate(const LiveStatus& status) {
 void StatusLine::note(const std::string& text) {
   if (quiet_) return;
   clear();
-  std::fprintf(stderr, "note: %s\n", printable(text).c_str());
+  std::fprintf(stderr, "%s\n", terminal::wrapped("note: " + printable(text), terminal::columnsOf(stderr), 6).c_str());
 }
 
 void StatusLine::clear() {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdio>
 #include <string>
 
 /// Words, widths and colours for terminals.
@@ -12,6 +13,16 @@ enum class Style { kPlain, kStrong, kDim, kGood, kWarning, kBad };
 
 /// The text in its style; unchanged without colour.
 std::string styled(const std::string& text, Style style, bool color);
+
+/// Characters, not bytes.
+std::size_t widthOf(const std::string& text);
+
+/// Width of the terminal behind the stream; 0: it is none.
+std::size_t columnsOf(std::FILE* stream);
+
+/// The text in lines of at most so many columns, broken between words; `indent` blanks before all but the first. 0
+/// columns: as it is. A word that is too long stays whole.
+std::string wrapped(const std::string& text, std::size_t columns, std::size_t indent);
 
 /// A line of parts, two blanks apart. The first part that does not fit ends it.
 class Line {

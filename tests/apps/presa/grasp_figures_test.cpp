@@ -156,7 +156,7 @@ TEST(Losses, AreToldEverywhere) {
       "finger 'index' got past a surface 1 time (first at 2.500 s): its forces after that are wrong";
   EXPECT_EQ(lossesOf(grasp.result), (std::vector{unseen, passed}));
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kNeutral);
-  const std::string closing = closingText(grasp.result, "", "", false);
+  const std::string closing = closingText(grasp.result, "", "", false, 0);
   EXPECT_NE(closing.find("warning: " + unseen + "\n"), std::string::npos) << closing;
   EXPECT_NE(closing.find("warning: " + passed + "\n"), std::string::npos) << closing;
   const std::string page = reportHtml(grasp.result);
@@ -187,7 +187,7 @@ TEST(Closing, ShowsWhatATerminalWouldObey) {
   Grasp grasp;
   grasp.result.contact_points[0].name = "thumb\u009B2J";
   grasp.result.contact_points[0].summary.pop_through = 1;
-  const std::string closing = closingText(grasp.result, "", "", false);
+  const std::string closing = closingText(grasp.result, "", "", false, 0);
   EXPECT_EQ(closing.find("\u009B"), std::string::npos) << closing;
   EXPECT_NE(closing.find("thumb\\u{9B}2J"), std::string::npos) << closing;
 }
@@ -196,7 +196,7 @@ TEST(Closing, ShowsWhatATerminalWouldObey) {
 TEST(Losses, WhichThereAreNotAreNotToldOf) {
   const Grasp grasp;
   EXPECT_TRUE(lossesOf(grasp.result).empty());
-  EXPECT_EQ(closingText(grasp.result, "", "", false).find("warning"), std::string::npos);
+  EXPECT_EQ(closingText(grasp.result, "", "", false, 0).find("warning"), std::string::npos);
   EXPECT_EQ(reportHtml(grasp.result).find("class=\"warning\""), std::string::npos);
   const auto json = nlohmann::json::parse(summaryJson(grasp.result));
   EXPECT_TRUE(json["warnings"].empty());

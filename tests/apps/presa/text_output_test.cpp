@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <vector>
 
 #include "apps/common/report/base64.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/status_line.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa {
 namespace {
@@ -66,6 +69,34 @@ TEST(StatusText, FitsTheTerminalAndUsesColourOnlyWhenAsked) {
   EXPECT_NE(wide.find("2 s left"), std::string::npos) << "7.5 s left at five times real time";
   EXPECT_EQ(wide.find('\033'), std::string::npos);
   EXPECT_NE(statusText(status, 5, 200, true).find('\033'), std::string::npos);
+}
+
+// At 80 columns the bar makes room for the second finger.
+TEST(StatusText, ShowsBothFingersAt80Columns) {
+  LiveStatus status;
+  status.time = 2.5;
+  status.duration = 10;
+  status.phase = "squeeze";
+  status.fingers = {{"thumb", ContactMode::kStick, 3.2}, {"index", ContactMode::kSlip, 13.1}};
+  const std::string line = statusText(status, 12, 79, false);
+  EXPECT_NE(line.find("index 13.10 N slip"), std::string::npos) << line;
+  EXPECT_NE(line.find("[##"), std::string::npos) << line;
+}
+
+TEST(Wrapped, BreaksBetweenWordsAndKeepsEveryOne) {
+  const std::string text = "  The grip of 6 N is µₛ-safe: it holds\n  in any direction, at twice the weight.";
+  const std::string lines = terminal::wrapped(text, 24, 4);
+  std::istringstream read(lines);
+  std::size_t count = 0;
+  for (std::string line; std::getline(read, line); ++count) EXPECT_LE(terminal::widthOf(line), 24U) << line;
+  EXPECT_GE(count, 4U);
+  const auto words = [](const std::string& from) {
+    std::istringstream stream(from);
+    return std::vector<std::string>{std::istream_iterator<std::string>(stream), {}};
+  };
+  EXPECT_EQ(words(lines), words(text));
+  EXPECT_EQ(terminal::wrapped(text, 0, 4), text) << "no terminal";
+  EXPECT_EQ(terminal::wrapped("incomprehensibilities", 8, 2), "incomprehensibilities") << "no word is broken";
 }
 
 }  // namespace
