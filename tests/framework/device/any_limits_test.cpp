@@ -14,6 +14,7 @@
 #include "framework/scene/load.h"
 #include "framework/session/session.h"
 #include "tests/framework/device/stand_ins.h"
+#include "tests/support/effort.h"
 
 // Ten thousand random scenes and rigs pass through the file readers, the limits, the output stage and the supervisor's
 // keeper. For all of them, no force, no torque and no change of them beyond the driver's rating reaches the transport,
@@ -249,11 +250,7 @@ class AnyFiles {
 };
 
 TEST(AnyLimits, NoFileWidensTheRatingOrSlowsTheWayToZero) {
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int kRuns = 500;
-#else
-  constexpr int kRuns = 10'000;
-#endif
+  constexpr int kRuns = unlessSanitized(10'000, 500);
   Reached reached;
   for (int run = 0; run < kRuns; ++run) {
     AnyFiles(static_cast<std::uint64_t>(run)).run(reached);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "framework/device/output_stage.h"
+#include "tests/support/effort.h"
 
 namespace presa {
 namespace {
@@ -42,11 +43,7 @@ TEST(OutputStage, IsFiniteBoundedAndRateLimitedForAnyInput) {
     const Vec3 v = vector(share_of_any, 1);
     return Quat(normal(random), v.x(), v.y(), v.z()).normalized();
   };
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int kRuns = 200;
-#else
-  constexpr int kRuns = 2000;
-#endif
+  constexpr int kRuns = unlessSanitized(2000, 200);
   constexpr int kTicks = 5000;
   std::uint64_t latched = 0, moved = 0, at_limit = 0, at_slew = 0, torque_at_limit = 0;
   for (int run = 0; run < kRuns; ++run) {

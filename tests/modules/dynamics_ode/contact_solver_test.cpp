@@ -4,6 +4,7 @@
 
 #include "modules/dynamics_ode/contact_solver/block_cholesky.h"
 #include "tests/modules/dynamics_ode/support.h"
+#include "tests/support/effort.h"
 
 // Presa's own contact solvers: their linear algebra against a dense solution, and piles that ODE's solvers lose, judged by
 // energy, speed and place. A tower of 20 may tip, so its energy is the oracle: it never rises.
@@ -78,7 +79,7 @@ std::shared_ptr<const World> cubeTower(int blocks, double mass, double gap = 0, 
 TEST(Tower, OfSixtyStandsAMinute) {
   Runner runner(cubeTower(60, 0.1), awake());
   double fastest = 0;
-  for (int n = 0; n < 60 * 200; ++n) {
+  for (int n = 0; n < unlessSanitized(60, 3) * 200; ++n) {
     runner.step();
     for (const BodyMotion& body : runner.state.bodies) fastest = std::max(fastest, body.v_WB.norm());
   }
@@ -251,7 +252,7 @@ TEST_P(Shot, DoesNotPassAThinPlate) {
   std::mt19937 generator(11);
   std::normal_distribution<double> normal;
   int through = 0;
-  for (int n = 0; n < 1000; ++n) {
+  for (int n = 0; n < unlessSanitized(1000, 50); ++n) {
     WorldMaker maker;
     maker.gravity(Vec3::Zero());
     const Vec3 plate(1, 1, thickness);

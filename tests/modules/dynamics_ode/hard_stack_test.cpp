@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/modules/dynamics_ode/support.h"
+#include "tests/support/effort.h"
 
 // Stacks that are hard for iterative solvers, at 200 Hz. Penetration is computed from the heights of face-to-face
 // boxes, exactly and independently of the engine. Bound: 0.5 mm, half of a visible depth.
@@ -18,7 +19,7 @@ TEST_P(MassRatio, HeavyStandsOnLight) {
   maker.table().box(Vec3::Constant(kEdge), light, {{0, 0, kEdge / 2}, Quat::Identity()});
   maker.box(Vec3::Constant(kEdge), light * GetParam(), {{0, 0, 1.5 * kEdge}, Quat::Identity()});
   Runner runner(maker.world(), awake());
-  for (int second = 0; second < 30; ++second) {
+  for (int second = 0; second < unlessSanitized(30, 3); ++second) {
     runner.run(1);
     ASSERT_LT(kEdge / 2 - runner[1].X_WB_end.p.z(), kMaxPenetration);
     ASSERT_LT(kEdge - (runner[2].X_WB_end.p.z() - runner[1].X_WB_end.p.z()), kMaxPenetration);
@@ -77,7 +78,7 @@ TEST(Tower, OfTenStandsThirtySeconds) {
     Runner runner(tower(10, turned), awake());
     std::vector<Vec3> places;
     for (std::size_t i = 1; i <= 10; ++i) places.push_back(runner[i].X_WB_end.p);
-    for (int second = 0; second < 30; ++second) {
+    for (int second = 0; second < unlessSanitized(30, 3); ++second) {
       runner.run(1);
       ASSERT_LT(deepest(runner, 10), kMaxPenetration);
       ASSERT_LT(farthestFrom(runner, places), 1e-3) << turned;
