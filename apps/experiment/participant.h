@@ -11,8 +11,11 @@ namespace presa::experiment {
 /// What the participant sees while this phase lasts, with the instruction in `language`.
 ParticipantScreen screenIn(const Experiment& experiment, const Phase& phase, const std::string& language);
 
-/// What the window shows when a presentation has ended: black, with the question if it is asked now.
+/// What the window shows when a presentation has ended: black, with question and answers if they are asked for now.
 ParticipantScreen screenAfter(const Experiment& experiment, const std::string& language, bool asks);
+
+/// Black, with a text: before the first trial and in a rest.
+ParticipantScreen screenWith(const std::string& text);
 
 /// Shows each phase's screen when the trial enters it. Thread: view; the view must belong to the same run.
 class ParticipantDirector final : public Module {

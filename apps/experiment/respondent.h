@@ -4,6 +4,7 @@
 #include <span>
 
 #include "apps/experiment/operator/operator.h"
+#include "apps/experiment/participant_desk.h"
 #include "apps/experiment/trial_run.h"
 
 namespace presa::experiment {
@@ -23,8 +24,9 @@ class Respondent {
 /// every trial. Needs Experiment::procedure with an observer.
 std::unique_ptr<Respondent> simulatedRespondent(const Experiment& experiment, int subject_number);
 
-/// The participant. The answer is typed at the operator's terminal, after the experiment's text "question".
-std::unique_ptr<Respondent> keyboardRespondent(const Experiment& experiment, Operator& person,
+/// The participant, asked with the experiment's text "question". The answer is typed in the participant's window or at the
+/// operator's terminal.
+std::unique_ptr<Respondent> keyboardRespondent(const Experiment& experiment, Operator& person, ParticipantDesk& desk,
                                                const std::string& language);
 
 }  // namespace presa::experiment

@@ -166,7 +166,7 @@ std::unique_ptr<Respondent> SubjectSession::respondentFor(OperatorConsole& conso
   if (console.person().silent())
     refuse(928, experiment_.file, "its trials ask a question, and there is nobody to answer it",
            log_.start.model.empty() ? "--operator terminal" : "add a <simulated_observer> to its <procedure>");
-  return keyboardRespondent(experiment_, console.person(), console.language());
+  return keyboardRespondent(experiment_, console.person(), console.desk(), console.language());
 }
 
 Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun& run, OperatorConsole& console,
@@ -194,7 +194,8 @@ Conducted SubjectSession::conductOne(const PlannedTrial& trial, const LoggedRun&
 }
 
 SubjectSession::End SubjectSession::run(Operator& person, const std::string& language) {
-  OperatorConsole console(experiment_, log_.start, language, person, [&](const std::string& text) {
+  ParticipantDesk desk(experiment_, language, log_.start.window);
+  OperatorConsole console(experiment_, log_.start, language, person, desk, [&](const std::string& text) {
     journal_.append({{"event", "note"}, {"text", text}, {"utc", utcNow()}});
   });
   const std::unique_ptr<Respondent> respondent = respondentFor(console);

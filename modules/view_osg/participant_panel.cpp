@@ -28,6 +28,11 @@ std::size_t charactersOf(const std::string& utf8) {
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   std::vector<std::string> lines;
+  if (const std::size_t end = text.find('\n'); end != std::string::npos) {
+    lines = wrapped(text.substr(0, end), columns);
+    for (std::string& line : wrapped(text.substr(end + 1), columns)) lines.push_back(std::move(line));
+    return lines;
+  }
   std::string line;
   for (std::size_t begin = text.find_first_not_of(' '); begin != std::string::npos;) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());

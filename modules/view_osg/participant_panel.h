@@ -20,7 +20,8 @@ class ParticipantPanel {
   std::vector<Label> lines_;
 };
 
-/// `text` in lines of at most `columns` characters, broken between words. A longer word has a line of its own.
+/// `text` in lines of at most `columns` characters, broken between words and where it has a line break. A longer word has a
+/// line of its own.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns);
 
 }  // namespace presa::view

@@ -4,15 +4,14 @@
 #include <cstdlib>
 #include <osg/Camera>
 #include <osg/Notify>
-#include <osgGA/GUIEventHandler>
 #include <osgViewer/Viewer>
-#include <queue>
 #include <stdexcept>
 #include <thread>
 
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/schedule/clock.h"
 #include "modules/view_osg/hud_widgets.h"
+#include "modules/view_osg/typed_keys.h"
 #include "modules/view_osg/window_context.h"
 
 namespace presa::view {
@@ -21,31 +20,6 @@ namespace {
 constexpr int kWidth = 1100, kHeight = 560;
 constexpr float kSize = 18, kLine = 26, kMargin = 18;  // [pixels]
 constexpr float kAdvance = 0.602F;                     // character width of DejaVu Sans Mono, relative to its size
-
-/// Collects keys as a terminal would send them.
-class Typed : public osgGA::GUIEventHandler {
- public:
-  bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override {
-    if (event.getEventType() == osgGA::GUIEventAdapter::RESIZE) {
-      width = event.getWindowWidth();
-      height = event.getWindowHeight();
-      return false;
-    }
-    if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    const int key = event.getKey();
-    if (key == osgGA::GUIEventAdapter::KEY_Return || key == osgGA::GUIEventAdapter::KEY_KP_Enter)
-      keys.push('\n');
-    else if (key == osgGA::GUIEventAdapter::KEY_BackSpace)
-      keys.push('\b');
-    else if (key == osgGA::GUIEventAdapter::KEY_Escape)
-      keys.push(27);
-    else if (key >= 32 && key < 127)
-      keys.push(static_cast<char>(key));
-    return true;
-  }
-  std::queue<char> keys;
-  int width = kWidth, height = kHeight;
-};
 
 class OsgTextWindow final : public TextWindow {
  public:
@@ -95,11 +69,7 @@ class OsgTextWindow final : public TextWindow {
       if (closed()) return 0;
       viewer_.advance();
       viewer_.eventTraversal();
-      if (!typed_->keys.empty()) {
-        const char pressed = typed_->keys.front();
-        typed_->keys.pop();
-        return pressed;
-      }
+      if (const char pressed = typed_->next(); pressed != 0) return pressed;
       const std::int64_t now = monotonicNs();
       if (now >= until) return 0;
       sleepUntilNs(std::min(until, now + 20'000'000));
@@ -120,7 +90,7 @@ class OsgTextWindow final : public TextWindow {
 
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<osg::Group> page_ = new osg::Group;
-  osg::ref_ptr<Typed> typed_ = new Typed;
+  osg::ref_ptr<TypedKeys> typed_ = new TypedKeys(kWidth, kHeight);
   std::vector<Label> labels_;
   osgViewer::Viewer viewer_;
 };

@@ -35,6 +35,7 @@ class KeyedOperator final : public Operator {
                          : why + "   space goes on   n note   q stop";
       draw();
       const char key = face_->key(100);
+      if (participant_) participant_();
       if (gone()) return Request::kStop;
       if (key == 'n' || writing_)
         take(key);
@@ -70,6 +71,7 @@ class KeyedOperator final : public Operator {
     }
   }
 
+  void listenTo(std::function<char()> participant) override { participant_ = std::move(participant); }
   void ended(const std::string& what) override { view_.last = what; }
 
  private:
@@ -82,10 +84,13 @@ class KeyedOperator final : public Operator {
     for (;;) {
       draw();
       const char key = face_->key(100);
+      const char other = participant_ ? participant_() : 0;
       if (gone() || key == 'q') return 0;
-      if (key == 0 || allowed.find(key) == std::string::npos) continue;
-      prompt_.clear();
-      return key;
+      for (const char pressed : {key, other}) {
+        if (pressed == 0 || allowed.find(pressed) == std::string::npos) continue;
+        prompt_.clear();
+        return pressed;
+      }
     }
   }
 
@@ -138,6 +143,7 @@ class KeyedOperator final : public Operator {
   }
 
   std::unique_ptr<Face> face_;
+  std::function<char()> participant_;
   SessionView view_;
   Request request_ = Request::kNone;
   std::optional<std::string> note_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,9 +25,12 @@ class Operator {
   virtual std::optional<std::string> takeNote() { return std::nullopt; }
   /// Waits between trials, for at least `seconds`, until the operator continues. Returns kNone or kStop.
   virtual Request await(const std::string& why, double seconds) = 0;
-  /// The participant's answer, 1 or 2; no value: the operator stops the session.
+  /// The participant's answer, 1 or 2, typed by either; no value: the operator stops the session.
   virtual std::optional<int> ask(const std::string& question) = 0;
   virtual std::optional<psychophysics::AdjustmentKey> askAdjust(const std::string& question) = 0;
+  /// `participant` is called some ten times a second while the operator waits or asks; it returns the key that the
+  /// participant has pressed, which answers as the operator's would, or 0.
+  virtual void listenTo(std::function<char()> participant) { (void)participant; }
   /// Called when a trial has ended.
   virtual void ended(const std::string& what) = 0;
   /// True when there is no person to ask.

@@ -25,11 +25,12 @@ std::string conditionText(const Experiment& experiment, const PlannedTrial& tria
 }  // namespace
 
 OperatorConsole::OperatorConsole(const Experiment& experiment, const SessionStart& start, std::string language,
-                                 Operator& person, std::function<void(const std::string&)> note)
+                                 Operator& person, ParticipantDesk& desk, std::function<void(const std::string&)> note)
     : experiment_(experiment),
       start_(start),
       language_(std::move(language)),
       person_(person),
+      desk_(desk),
       note_(std::move(note)),
       begin_ns_(monotonicNs()),
       min_duration_(durationOf(experiment).min) {
@@ -37,7 +38,10 @@ OperatorConsole::OperatorConsole(const Experiment& experiment, const SessionStar
   view_.subject = start.subject.id;
   view_.session = start.session;
   view_.model = start.model;
+  person.listenTo([&desk] { return desk.key(); });
 }
+
+OperatorConsole::~OperatorConsole() { person_.listenTo({}); }
 
 double OperatorConsole::secondsLeft(double time) const {
   const auto left = static_cast<double>(view_.left);
@@ -48,7 +52,10 @@ double OperatorConsole::secondsLeft(double time) const {
 bool OperatorConsole::welcome() {
   const std::string instruction = experiment_.textFor("start", language_);
   if (person_.silent() || !start_.model.empty() || instruction.empty()) return true;
-  return person_.await("\"" + instruction + "\"", 0) != Request::kStop;
+  desk_.tell("start");
+  const Request request = person_.await("\"" + instruction + "\"", 0);
+  desk_.leave();
+  return request != Request::kStop;
 }
 
 void OperatorConsole::begin(const PlannedTrial& trial, const TrialSource& source) {
@@ -114,9 +121,11 @@ bool OperatorConsole::between(const std::string& what, const TrialSource& source
   const bool rests = start_.realtime && every > 0 && since_rest_ >= static_cast<std::size_t>(every);
   if (!pause_ && !rests) return ending_ != Request::kStop;
   if (rests) since_rest_ = 0;
+  if (rests) desk_.tell("rest");
   const std::string instruction = rests ? experiment_.textFor("rest", language_) : "";
   const Request request =
       person_.await(rests ? "rest   \"" + instruction + "\"" : "paused", rests ? experiment_.rest.seconds : 0);
+  desk_.leave();
   if (const auto note = person_.takeNote()) note_(*note);
   pause_ = false;
   return request != Request::kStop;

@@ -4,6 +4,7 @@
 
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/operator/operator_observer.h"
+#include "apps/experiment/participant_desk.h"
 #include "apps/experiment/session_log.h"
 
 namespace presa::experiment {
@@ -12,9 +13,13 @@ namespace presa::experiment {
 class OperatorConsole {
  public:
   using Request = Operator::Request;
-  /// `note` is called with each note of the operator.
+  /// `note` is called with each note of the operator. The desk has its window while the operator waits.
   OperatorConsole(const Experiment& experiment, const SessionStart& start, std::string language, Operator& person,
-                  std::function<void(const std::string&)> note);
+                  ParticipantDesk& desk, std::function<void(const std::string&)> note);
+
+  ~OperatorConsole();
+  OperatorConsole(const OperatorConsole&) = delete;
+  OperatorConsole& operator=(const OperatorConsole&) = delete;
 
   /// Shows the participant's instructions before the first trial. False: the session is to stop.
   bool welcome();
@@ -30,6 +35,7 @@ class OperatorConsole {
   /// The values that the haptic thread writes; null when there is no display.
   TrialLive* live() noexcept { return person_.silent() ? nullptr : &live_; }
   Operator& person() noexcept { return person_; }
+  ParticipantDesk& desk() noexcept { return desk_; }
   const std::string& language() const noexcept { return language_; }
 
  private:
@@ -40,6 +46,7 @@ class OperatorConsole {
   const SessionStart& start_;
   std::string language_;
   Operator& person_;
+  ParticipantDesk& desk_;
   std::function<void(const std::string&)> note_;
   TrialLive live_;
   SessionView view_;

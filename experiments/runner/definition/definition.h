@@ -44,6 +44,7 @@ struct Design {
 /// What the participant sees in a window. Nothing that is measured, unless the experiment says so.
 struct Sight {
   bool bodies = true, fingertips = true, instruction = true, question = true;
+  bool answers = true;    ///< the keys that answer; they act in the window, too
   bool measured = false;  ///< forces, contact states, penetration: what an operator sees
   bool fixation = false;  ///< a cross in the middle
 };

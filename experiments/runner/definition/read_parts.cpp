@@ -83,9 +83,9 @@ void checkRepeats(const Element& element, const Experiment& experiment, Diagnost
 
 /// A list such as "bodies fingertips"; the schema knows its words. "black" is none of them.
 Sight sightOf(const std::string& words) {
-  Sight sight{.bodies = false, .fingertips = false, .instruction = false, .question = false};
+  Sight sight{.bodies = false, .fingertips = false, .instruction = false, .question = false, .answers = false};
   const std::pair<const char*, bool*> all[] = {{"bodies", &sight.bodies},           {"fingertips", &sight.fingertips},
-                                               {"instruction", &sight.instruction}, {"question", &sight.question},
+                                               {"instruction", &sight.instruction}, {"question", &sight.question}, {"answers", &sight.answers},
                                                {"measured", &sight.measured},       {"fixation", &sight.fixation}};
   std::istringstream list(words);
   for (std::string word; list >> word;) {
@@ -173,13 +173,13 @@ void readPhases(const Element& root, Experiment& experiment, Diagnostics& diagno
 
 void readTexts(const Element& root, Experiment& experiment, Diagnostics& diagnostics) {
   std::vector<std::string> moments = experiment.phaseNames();
-  moments.insert(moments.end(), {"start", "rest", "question", "end"});
+  moments.insert(moments.end(), {"start", "rest", "question", "answers", "end"});
   for (const Element& element : root.children("text")) {
     const std::string when = element.attribute("when");
     if (std::find(moments.begin(), moments.end(), when) == moments.end())
       diagnostics.error(kNoSuchMoment, element.where("when"),
                         "there is no phase " + quote(when) + didYouMean(when, moments),
-                        "start, rest, question, end, or the name of a phase");
+                        "start, rest, question, answers, end, or the name of a phase");
     experiment.texts.push_back({when, element.attribute("language"), element.attribute("text")});
   }
 }

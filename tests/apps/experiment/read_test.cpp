@@ -41,7 +41,8 @@ std::string seen(const Sight& sees) {
   std::string words;
   for (const auto& [is_seen, word] : {std::pair(sees.bodies, "bodies"), std::pair(sees.fingertips, "fingertips"),
                                       std::pair(sees.instruction, "instruction"), std::pair(sees.question, "question"),
-                                      std::pair(sees.fixation, "fixation"), std::pair(sees.measured, "measured")}) {
+                                      std::pair(sees.answers, "answers"), std::pair(sees.fixation, "fixation"),
+                                      std::pair(sees.measured, "measured")}) {
     if (is_seen) words += (words.empty() ? "" : " ") + std::string(word);
   }
   return words;
@@ -60,7 +61,7 @@ TEST(Read, SaysWhatTheParticipantSees) {
     return std::move(*experiment);
   };
   const auto put = [&](const std::string& before, const std::string& what) { text.insert(text.find(before), what); };
-  EXPECT_EQ(seen(readText().phases.at(3).sees), "bodies fingertips instruction question");
+  EXPECT_EQ(seen(readText().phases.at(3).sees), "bodies fingertips instruction question answers");
   put("<phase name=\"reach\"", "<participant sees=\"bodies fixation\"/>");
   put("seconds=\"10\" abort", "sees=\"black\" ");
   const Experiment experiment = readText();

@@ -104,6 +104,7 @@ TEST(WrappedText, BreaksBetweenWords) {
   EXPECT_EQ(view::wrapped("one two three", 7), (Lines{"one two", "three"}));
   EXPECT_EQ(view::wrapped("incomprehensibilities are long", 7), (Lines{"incomprehensibilities", "are", "long"}));
   EXPECT_EQ(view::wrapped("finch\xc3\xa9 cade gi\xc3\xb9", 11), (Lines{"finch\xc3\xa9 cade", "gi\xc3\xb9"}));
+  EXPECT_EQ(view::wrapped("which one\n1 or 2", 20), (Lines{"which one", "1 or 2"}));
 }
 
 }  // namespace
