@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 
 namespace presa {
 namespace {
@@ -104,8 +105,7 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   if (trace.size() > 1) figure.max_step = kMissing * (trace[1].time - trace[0].time);
   for (const RunResult::Phase& phase : result.phases) figure.bands.push_back({phase.name, phase.begin, phase.end});
 
-  for (const RunResult::Fault& fault : result.faults)
-    figure.events.push_back({fault.text.substr(0, fault.text.find(';')), fault.time});
+  for (const RunResult::Fault& fault : result.faults) addFault(fault.time, fault.text, figure.events);
 
   svg::Panel height{.title = "Height", .unit = "m", .height = 230};
   height.series = {ranged(

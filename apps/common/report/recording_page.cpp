@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
@@ -71,16 +72,16 @@ void addEvent(const std::string& fault, std::vector<svg::Event>& events) {
   const double time = std::strtod(fault.c_str(), &end);
   const std::string what = end;
   if (end == fault.c_str() || !std::isfinite(time) || !what.starts_with(" s: ")) return;
-  events.push_back({what.substr(4, what.find(';') - 4), time});
+  addFault(time, what.substr(4), events);
 }
 
 svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& finger,
                          const std::vector<std::string>& bodies) {
-  constexpr double kMissing = 20;  // ticks missing in a row: the loop stood still
+  constexpr double kTicksMissing = 20;  // ticks missing in a row: the loop stood still
   svg::TimeFigure figure;
   figure.title = "Force, penetration, speed and place of " + finger.name + " over time";
   figure.time = samples.time;
-  figure.max_step = kMissing * samples.haptic_period;
+  figure.max_step = kTicksMissing * samples.haptic_period;
   for (const std::string& fault : samples.faults) addEvent(fault, figure.events);
   const std::vector<svg::Band> spans = touched(samples, finger, bodies);
   svg::Panel force{.title = "Force" + svg::touching(spans), .unit = "N", .height = 170, .from_zero = true};

@@ -126,7 +126,7 @@ std::string panelBody(const TimeFigure& figure, const Panel& panel, const Scale&
   const Scale y{range.low, range.high, bottom, top};
   const std::string title = panel.title + (panel.unit.empty() ? "" : " [" + panel.unit + "]");
   std::string out = textAt(kTimeLeft, top - 9, "panel-title", escape(title)) + bandRects(figure.bands, x, top, bottom) +
-                    spanRects(panel.spans, x, top) + xGrid(x, top, bottom) + yAxis(panel, range, x, y);
+                    xGrid(x, top, bottom) + yAxis(panel, range, x, y) + spanRects(panel.spans, x, top);
   for (const Level& level : panel.levels)
     out += lineFromTo(x.pixel_low, y(level.value), x.pixel_high, y(level.value), "level " + level.css_class);
   for (const Series& series : panel.series)
