@@ -57,11 +57,19 @@ const std::string& nameOf(const RunResult& result, std::int32_t body) {
   return static_cast<std::size_t>(body) < bodies.size() ? bodies[static_cast<std::size_t>(body)].name : unknown;
 }
 
+/// Samples farther apart than this were not taken one after the other; 0: not known [s].
+double maxStep(const BoundedList<TraceSample>& trace) {
+  return trace.size() > 1 ? kMissing * (trace[1].time - trace[0].time) : 0;
+}
+
 /// The intervals in which the contact point touched one body, by name.
 std::vector<svg::Band> touched(const RunResult& result, std::size_t contact_point) {
   std::vector<svg::Band> spans;
   std::int32_t before = kNoBody;
+  double last = result.trace->begin()->time;
   for (const TraceSample& sample : *result.trace) {
+    if (sample.time - last > maxStep(*result.trace)) before = kNoBody;
+    last = sample.time;
     const FingerContact& finger = sample.fingers[contact_point];
     const std::int32_t body = finger.mode == ContactMode::kNone ? kNoBody : finger.body;
     if (body != kNoBody && body != before) spans.push_back({nameOf(result, body), sample.time, sample.time});
@@ -102,7 +110,7 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   svg::TimeFigure figure;
   figure.title = "Height, grip force and contact state of " + result.contact_points[contact_point].name + " over time";
   figure.time = column(trace, [](const TraceSample& sample) { return sample.time; });
-  if (trace.size() > 1) figure.max_step = kMissing * (trace[1].time - trace[0].time);
+  figure.max_step = maxStep(trace);
   for (const RunResult::Phase& phase : result.phases) figure.bands.push_back({phase.name, phase.begin, phase.end});
 
   for (const RunResult::Fault& fault : result.faults) addFault(fault.time, fault.text, figure.events);

@@ -47,6 +47,8 @@ std::vector<double> magnitude(const RecordedTable& table, const std::string& nam
   return out;
 }
 
+constexpr double kTicksMissing = 20;  // in a row: the loop stood still
+
 /// The bodies that the finger touched, by name.
 std::vector<svg::Band> touched(const RecordedSamples& samples, const RecordedTable& finger,
                                const std::vector<std::string>& bodies) {
@@ -55,6 +57,7 @@ std::vector<svg::Band> touched(const RecordedSamples& samples, const RecordedTab
   double before = -1;
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     const double now = mode[i] > 0 ? body[i] : -1;
+    if (i > 0 && samples.time[i] - samples.time[i - 1] > kTicksMissing * samples.haptic_period) before = -1;
     if (before >= 0) spans.back().end = samples.time[i];
     if (now >= 0 && now != before) {
       const auto index = static_cast<std::size_t>(now);
@@ -77,7 +80,6 @@ void addEvent(const std::string& fault, std::vector<svg::Event>& events) {
 
 svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& finger,
                          const std::vector<std::string>& bodies) {
-  constexpr double kTicksMissing = 20;  // ticks missing in a row: the loop stood still
   svg::TimeFigure figure;
   figure.title = "Force, penetration, speed and place of " + finger.name + " over time";
   figure.time = samples.time;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kWidth = 1080, kNoLabels = 1064;     // [px]
 constexpr double kTop = 26, kBottom = 40, kGap = 44;  // above the first panel, below the last, between two
-constexpr double kWideCharacter = 7.6;                // of a short label, where it may not be cut
+constexpr double kWideCharacter = 8.2;                // of a short label, where it may not be cut
 constexpr double kRow = 18;                           // a row of names above the first panel
 constexpr std::size_t kMaxEventRows = 3;              // further events have a line but no name
 

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 #include "apps/common/report/figures.h"
 #include "apps/common/report/report.h"
 #include "apps/common/report/svg_time.h"
@@ -130,6 +131,19 @@ TEST(ReportPlots, InterruptCurvesWhereNothingWasSampled) {
   EXPECT_EQ(pieces(), 1u);
   figure.max_step = 2;
   EXPECT_EQ(pieces(), 2u);
+}
+
+// Two fingers that lose their device at once made two lines of text over each other's panels.
+TEST(ReportPlots, TellOneFaultOfSeveralFingersOnce) {
+  std::vector<svg::Event> events;
+  addFault(1, "thumb: device lost; the force went to zero", events);
+  addFault(1, "index: device lost; the force went to zero", events);
+  addFault(1, "index: over-speed", events);
+  addFault(2, "index: device lost", events);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].label, "thumb, index: device lost");
+  EXPECT_EQ(events[1].label, "index: over-speed");
+  EXPECT_EQ(events[2].time, 2);
 }
 
 // Names that lie over each other cannot be read.
