@@ -9,8 +9,8 @@ namespace presa {
 /// Times at which status bits of the output stages changed, a line each: "12.345 s: device lost, fading".
 std::vector<std::string> statusTimeline(const RecordedSamples& samples);
 
-/// Page of a recording: its faults, and each finger's force, penetration, speed and position over time. `bodies`: names of
-/// the bodies in scene order; others are shown by their number.
+/// Page of a recording: its faults, and each finger's force, penetration, speed and position over time. `bodies`: names
+/// of the bodies in scene order; others are shown by their number.
 std::string recordingPage(const std::string& file, const RecordedSamples& samples,
                           const std::vector<std::string>& bodies = {});
 

@@ -35,8 +35,8 @@ struct Series {
   std::string css_class;
   std::vector<double> y;  ///< as TimeFigure::time; NaN interrupts the line
   bool step = false;      ///< keeps its value until the next sample
-  /// Min and max from each sample up to the next, of a faster signal than `y`: the line then shows all of it. Both empty:
-  /// none.
+  /// Min and max from each sample up to the next, of a faster signal than `y`: the line then shows all of it. Both
+  /// empty: none.
   std::vector<double> low{}, high{};
 };
 
@@ -106,8 +106,8 @@ struct WorkFigure {
   std::string legend{};           ///< line of text inside the plot, at its top
 };
 
-/// The panels over one time axis, with bands, events, a label at the end of each curve and the data for the page's hover
-/// read-out. Every figure has links below it that save it as SVG and CSV.
+/// The panels over one time axis, with bands, events, a label at the end of each curve and the data for the page's
+/// hover read-out. Every figure has links below it that save it as SVG and CSV.
 std::string render(const TimeFigure& figure);
 /// Both axes from 0.
 std::string render(const ScatterFigure& figure);

@@ -23,7 +23,8 @@ class Csv {
 std::string withSaveLinks(const std::string& css_class, const std::string& svg_element, const std::string& more,
                           const std::string& title, const Csv& csv);
 
-/// The picture as a file of its own, in the light colours of the page; programs that know no CSS variables read it, too.
+/// The picture as a file of its own, in the light colours of the page, without CSS variables, which many programs do not
+/// know.
 std::string standalone(const std::string& svg_element);
 
 }  // namespace presa::svg
