@@ -3,6 +3,8 @@
 #include <sys/utsname.h>
 
 #include <Eigen/Core>
+#include <array>
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -42,7 +44,7 @@ std::vector<std::pair<std::string, std::string>> machineFacts() {
           {"compiler", std::string("gcc ") + __VERSION__},
           {"Eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                         std::to_string(EIGEN_MINOR_VERSION)},
-          {"Presa", kVersion}};
+          {"Presa", versionText()}};
 }
 
 std::string utcNow() {
@@ -52,6 +54,19 @@ std::string utcNow() {
   std::array<char, 32> text{};
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
   return text.data();
+}
+
+std::string localNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::localtime_r(&now, &parts);
+  std::array<char, 48> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %z", &parts);
+  return text.data();
+}
+
+std::string machineLine() {
+  return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores, " + system();
 }
 
 }  // namespace presa

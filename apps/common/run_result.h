@@ -61,6 +61,7 @@ struct RunResult {
 
   std::shared_ptr<const World> world;  ///< scene and rig; never null
   std::string version;                 ///< of the program
+  std::string started;                 ///< wall clock with its zone, "2026-03-01 10:30:00 +0100"; empty: not known
   std::string command;                 ///< command line that repeats the run
   std::uint64_t seed = 1;
   bool realtime = false;

@@ -7,6 +7,7 @@
 
 #include "apps/common/assembly_observer.h"
 #include "apps/common/live_observer.h"
+#include "apps/common/machine.h"
 #include "apps/common/pacer.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/common/terminal/keys.h"
@@ -172,6 +173,7 @@ void TerminalRun::noteCommands() {
 void TerminalRun::execute() {
   const SignalGuard guard(control_);
   live_->start_ns = monotonicNs();
+  result_.started = localNow();
   for (const std::string& note : result_.notes) live_->line.note(note);
   if (settings_.watch || (run_->options().realtime && run_->session().output() != nullptr)) live_->keys.emplace();
   {

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <optional>
 
 #include "apps/common/grasp_figures.h"
 #include "apps/common/losses.h"
+#include "apps/common/number_text.h"
 
 namespace presa {
 namespace {
-
-std::string fixed(double value, int decimals) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 std::string offsetSentence(const GraspFigures& figures) {
   double widest = 0;
@@ -58,7 +52,7 @@ std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
   if (slips.empty()) return "No slip after the loosening began.";
   if (!(figures.slip_limit > 0)) return "Slipped: " + slips + ".";
   return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" +
-         std::to_string(figures.fingers.size()) + " mu_s) = " + fixed(figures.slip_limit, 3) + " N.";
+         std::to_string(figures.fingers.size()) + " μₛ) = " + fixed(figures.slip_limit, 3) + " N.";
 }
 
 constexpr double kSlipTold = 0.01;  // of the limit

@@ -45,7 +45,10 @@ std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) 
       finger.oriented = frame.device.fingers[i].oriented;
       finger.q_WT = frame.device.fingers[i].q_WT;
     }
-    if (index < frame.contacts.count()) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+    if (index >= frame.contacts.count()) continue;
+    placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+    if (index < frame.forces.count() && finger.touches())
+      finger.commanded_normal = std::max(0.0, frame.forces.f_H_W[i].dot(finger.nhat_W));
   }
   return fingers;
 }
@@ -57,7 +60,8 @@ std::vector<FingerView> withoutMeasured(std::vector<FingerView> fingers) {
     finger.p_WH = finger.p_WC = finger.p_WP;
     finger.nhat_W = Vec3::UnitZ();
     finger.f_H_W = Vec3::Zero();
-    finger.normal_force = finger.tangential_force = finger.friction = finger.friction_static = 0;
+    finger.normal_force = finger.commanded_normal = finger.tangential_force = finger.friction = finger.friction_static =
+        0;
   }
   return fingers;
 }
@@ -70,12 +74,21 @@ double gripForce(const std::vector<FingerView>& fingers) {
     Vec3 net = Vec3::Zero();
     for (const FingerView& finger : fingers) {
       if (finger.body != first.body || !finger.touches()) continue;
-      pressed += finger.normal_force;
-      net += finger.normal_force * finger.nhat_W;
+      pressed += finger.commanded_normal;
+      net += finger.commanded_normal * finger.nhat_W;
     }
     grip = std::max(grip, (pressed - net.norm()) / 2);
   }
   return grip;
+}
+
+double maxGripForce(const std::vector<DeviceRole>& roles) {
+  double sum = 0, strongest = 0;
+  for (const DeviceRole& role : roles) {
+    sum += role.limits.force;
+    strongest = std::max(strongest, role.limits.force);
+  }
+  return std::min(sum / 2, sum - strongest);
 }
 
 }  // namespace presa::view

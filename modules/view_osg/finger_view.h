@@ -24,7 +24,8 @@ struct FingerView {
   Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]
   Vec3 nhat_W = Vec3::UnitZ();  ///< unit normal, body into finger
   Vec3 f_H_W = Vec3::Zero();    ///< rendered force on the finger [N]
-  double normal_force = 0;      ///< [N]
+  double normal_force = 0;      ///< rendered [N]
+  double commanded_normal = 0;  ///< normal part of the force that goes to the device, after the output stage [N]
   double tangential_force = 0;  ///< [N], >= 0
   double friction = 0;          ///< current coefficient: static while sticking, dynamic while slipping
   double friction_static = 0;
@@ -42,8 +43,10 @@ std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame);
 /// The same without anything measured: free fingertips where they are seen, whatever they feel.
 std::vector<FingerView> withoutMeasured(std::vector<FingerView> fingers);
 
-/// Grip force on the body gripped hardest [N]: half of the normal forces that cancel, (sum |n| - |sum n|) / 2.
-/// Two opposed fingers of n newton give n; one finger gives 0.
+/// Grip force on the body gripped hardest, as commanded to the devices [N]: half of the normal forces that cancel,
+/// (sum |n| - |sum n|) / 2. Two opposed fingers of n newton give n; one finger gives 0.
 double gripForce(const std::vector<FingerView>& fingers);
+/// The largest grip force that devices with these force limits can give [N].
+double maxGripForce(const std::vector<DeviceRole>& roles);
 
 }  // namespace presa::view

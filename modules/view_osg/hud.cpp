@@ -95,7 +95,7 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   addTitle(world);
   for (std::size_t i = 0; i < world.scene.devices.size(); ++i) addCard(i);
   if (cards_.size() > 1) addGrip();
-  for (const DeviceRole& role : world.scene.devices) grip_scale_ = std::min(grip_scale_, role.limits.force);
+  grip_scale_ = maxGripForce(world.scene.devices);
   addRates(world, options.bus.has_value());
   addLegend(options.view == RunOptions::View::kWindow);
   help_->setNodeMask(0);

@@ -78,7 +78,7 @@ class Hud {
   std::optional<Bar> grip_bar_;
   std::vector<Card> cards_;
   std::vector<RateLine> rates_;
-  double grip_scale_ = 10;  ///< full bar [N]
+  double grip_scale_ = 0;  ///< full bar: the most that the devices can give [N]
 };
 
 }  // namespace presa::view

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+
+#include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 
 namespace presa {
 namespace {
+
+constexpr double kMissing = 5;  // trace samples missing in a row: the loop stood still
 
 /// The object whose height is drawn: the grasped one, else the first traced one.
 const RunResult::Object* drawnObject(const RunResult& result, const std::optional<GraspFigures>& grasp) {
@@ -33,10 +38,67 @@ const FingerGrasp* graspOf(const std::optional<GraspFigures>& grasp, std::size_t
   return finger == grasp->fingers.end() ? nullptr : &*finger;
 }
 
-std::string shortNumber(double value, const char* pattern = "%.3f") {
-  char text[48];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
+/// A series with the ranges between its samples. `own` reads the sample itself, `range` its TraceRanges.
+svg::Series ranged(const BoundedList<TraceSample>& trace, std::size_t contact_point, const std::string& label,
+                   const std::string& css_class, const std::function<double(const TraceSample&)>& own,
+                   TraceRange TraceRanges::*range) {
+  const auto rangeOf = [&](const TraceSample& s) { return s.ranges[contact_point].*range; };
+  return {label,
+          css_class,
+          column(trace, own),
+          false,
+          column(trace, [&](const TraceSample& s) { return rangeOf(s).min; }),
+          column(trace, [&](const TraceSample& s) { return rangeOf(s).max; })};
+}
+
+const std::string& nameOf(const RunResult& result, std::int32_t body) {
+  static const std::string unknown = "?";
+  const std::vector<Body>& bodies = result.world->scene.bodies;
+  return static_cast<std::size_t>(body) < bodies.size() ? bodies[static_cast<std::size_t>(body)].name : unknown;
+}
+
+/// Samples farther apart than this were not taken one after the other; 0: not known [s].
+double maxStep(const BoundedList<TraceSample>& trace) {
+  return trace.size() > 1 ? kMissing * (trace[1].time - trace[0].time) : 0;
+}
+
+/// The intervals in which the contact point touched one body, by name.
+std::vector<svg::Band> touched(const RunResult& result, std::size_t contact_point) {
+  std::vector<svg::Band> spans;
+  std::int32_t before = kNoBody;
+  double last = result.trace->begin()->time;
+  for (const TraceSample& sample : *result.trace) {
+    if (sample.time - last > maxStep(*result.trace)) before = kNoBody;
+    last = sample.time;
+    const FingerContact& finger = sample.fingers[contact_point];
+    const std::int32_t body = finger.mode == ContactMode::kNone ? kNoBody : finger.body;
+    if (body != kNoBody && body != before) spans.push_back({nameOf(result, body), sample.time, sample.time});
+    if (before != kNoBody && !spans.empty() && (body == before || body == kNoBody)) spans.back().end = sample.time;
+    if (body != kNoBody && before != kNoBody && body != before) spans[spans.size() - 2].end = sample.time;
+    before = body;
+  }
+  return spans;
+}
+
+/// Force of the finger's device, split along the contact normal: what was commanded in front, what was rendered behind.
+svg::Panel forcePanel(const RunResult& result, std::size_t f, const std::vector<svg::Band>& spans) {
+  const BoundedList<TraceSample>& trace = *result.trace;
+  const auto commanded = [f](const TraceSample& s) { return partsOf(s.f_command[f], s.fingers[f]); };
+  svg::Panel force{.title = "Grip force" + svg::touching(spans), .unit = "N", .height = 170, .from_zero = true};
+  force.series = {
+      ranged(
+          trace, f, "tangential, rendered", "thin second",
+          [f](const auto& s) { return s.fingers[f].tangential_force_W.norm(); }, &TraceRanges::rendered_tangential),
+      ranged(
+          trace, f, "normal, rendered", "thin", [f](const auto& s) { return s.fingers[f].normal_force; },
+          &TraceRanges::rendered_normal),
+      ranged(
+          trace, f, "tangential, commanded", "tangential", [&](const auto& s) { return commanded(s).tangential; },
+          &TraceRanges::commanded_tangential),
+      ranged(
+          trace, f, "normal, commanded", "force", [&](const auto& s) { return commanded(s).normal; },
+          &TraceRanges::commanded_normal)};
+  return force;
 }
 
 }  // namespace
@@ -48,26 +110,30 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   svg::TimeFigure figure;
   figure.title = "Height, grip force and contact state of " + result.contact_points[contact_point].name + " over time";
   figure.time = column(trace, [](const TraceSample& sample) { return sample.time; });
+  figure.max_step = maxStep(trace);
   for (const RunResult::Phase& phase : result.phases) figure.bands.push_back({phase.name, phase.begin, phase.end});
 
+  for (const RunResult::Fault& fault : result.faults) addFault(fault.time, fault.text, figure.events);
+
   svg::Panel height{.title = "Height", .unit = "m", .height = 230};
-  height.series.push_back({"finger", "finger", column(trace, [&](const auto& s) { return finger(s).p_WH.z(); })});
-  height.series.push_back({"proxy", "proxy", column(trace, [&](const auto& s) { return finger(s).p_WP.z(); })});
+  height.series = {ranged(
+                       trace, contact_point, "finger", "finger", [&](const auto& s) { return finger(s).p_WH.z(); },
+                       &TraceRanges::height),
+                   ranged(
+                       trace, contact_point, "proxy", "proxy", [&](const auto& s) { return finger(s).p_WP.z(); },
+                       &TraceRanges::proxy_height)};
   if (const RunResult::Object* object = drawnObject(result, grasp)) {
     const auto slot = static_cast<std::size_t>(object->trace_slot);
     height.series.push_back(
         {object->name, "object", column(trace, [&](const auto& s) { return s.bodies[slot].p.z(); })});
   }
+  const std::vector<svg::Band> spans = touched(result, contact_point);
+  svg::Panel force = forcePanel(result, contact_point, spans);
+  if (graspOf(grasp, contact_point) && grasp->slip_limit > 0)
+    force.levels.push_back({grasp->slip_limit, "slip limit " + fixed(grasp->slip_limit, 3) + " N", "limit"});
 
-  svg::Panel force{.title = "Grip force", .unit = "N", .height = 150, .from_zero = true};
-  force.series.push_back({"normal", "force", column(trace, [&](const auto& s) { return finger(s).normal_force; })});
-  force.series.push_back(
-      {"tangential", "tangential", column(trace, [&](const auto& s) { return finger(s).tangential_force_W.norm(); })});
-  if (graspOf(grasp, contact_point) && grasp->slip_limit > 0) {
-    force.levels.push_back({grasp->slip_limit, "slip limit " + shortNumber(grasp->slip_limit) + " N", "limit"});
-  }
-
-  svg::Panel state{.title = "Contact state", .height = 72, .names = {"none", "stick", "slip"}};
+  svg::Panel state{.title = "Contact state", .height = 84, .names = {"none", "stick", "slip"}};
+  state.spans = spans;
   state.series.push_back(
       {"state", "state", column(trace, [&](const auto& s) { return static_cast<double>(finger(s).mode); }), true});
   figure.panels = {std::move(height), std::move(force), std::move(state)};
@@ -91,13 +157,13 @@ svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<G
   }
   figure.clouds = {std::move(stick), std::move(slip)};
   if (object) {
-    figure.rays.push_back({"slip line, static friction " + shortNumber(object->friction_static, "%.3g"), "static",
+    figure.rays.push_back({"slip line, static friction μₛ = " + significant(object->friction_static, 3), "static",
                            object->friction_static});
     figure.rays.push_back(
-        {"dynamic friction " + shortNumber(object->friction_dynamic, "%.3g"), "dynamic", object->friction_dynamic});
+        {"dynamic friction μ = " + significant(object->friction_dynamic, 3), "dynamic", object->friction_dynamic});
   }
   if (const FingerGrasp* finger = graspOf(grasp, contact_point); finger && finger->slip) {
-    figure.marks.push_back({"last stick before the slip at " + shortNumber(finger->slip->time) + " s",
+    figure.marks.push_back({"last stick before the slip at " + fixed(finger->slip->time, 3) + " s",
                             "onset",
                             {finger->slip->last_stick_normal_force, finger->slip->last_stick_tangential_force}});
   }

@@ -10,12 +10,12 @@ const char* const kStyle = R"CSS(
 :root { color-scheme: light dark;
   --bg: #ffffff; --card: #f6f7f9; --ink: #1b1f24; --soft: #5b6570; --rule: #dde1e6; --grid: #e7eaee;
   --band0: #eef3f8; --band1: #ffffff; --good: #0b7a53; --bad: #b3261e; --neutral: #44546a;
-  --finger: #1a936f; --proxy: #7fcfb2; --object: #c8451b; --force: #1f6fb5; --tangential: #8aa5bd; --state: #1b1f24;
+  --finger: #0b62a8; --proxy: #5aa9dc; --object: #c75a00; --force: #0b62a8; --tangential: #e08a00; --state: #1b1f24;
   --limit: #a0522d; --s0: #e8a33d; --s1: #1f8a8c; --s2: #3d2f86; --s3: #b0416e; --s4: #6a7d2c; --s5: #555f6b; }
 @media screen and (prefers-color-scheme: dark) { :root {
   --bg: #14171b; --card: #1d2127; --ink: #e6e9ed; --soft: #9aa5b1; --rule: #343b44; --grid: #2a3038;
   --band0: #1c232b; --band1: #14171b; --good: #4cc38a; --bad: #ff8a80; --neutral: #a9b8cc;
-  --finger: #3ddc97; --proxy: #2f9a78; --object: #ff8552; --force: #5aa9e6; --tangential: #7d9db8; --state: #e6e9ed;
+  --finger: #5aa9e6; --proxy: #9fd0f5; --object: #ff9d4d; --force: #5aa9e6; --tangential: #ffc266; --state: #e6e9ed;
   --limit: #d9a066; --s0: #ffd48a; --s1: #3fbfb6; --s2: #8a7cf0; --s3: #e57ba4; --s4: #b4c86a; --s5: #a3adb8; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--bg); color: var(--ink); font: 15px/1.5 system-ui, "Liberation Sans", sans-serif; }
@@ -43,13 +43,14 @@ table.facts td:first-child { color: var(--soft); width: 170px; white-space: nowr
 td > code { display: inline-block; white-space: normal; overflow-wrap: anywhere; text-align: left; min-width: 240px; }
 th.words, td.words { white-space: normal; text-align: left; } td.good { color: var(--good); } td.warn { color: var(--limit); } td.bad { color: var(--bad); }
 a { color: inherit; text-decoration-color: var(--soft); }
+.save { color: var(--soft); font-size: 12px; margin: 0 0 10px; }
 .caption, .empty { color: var(--soft); font-size: 14px; }
 ul { margin: 6px 0; padding-left: 20px; }
 .fault { color: var(--bad); } .warning { color: var(--limit); }
 code { font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; }
 pre { background: var(--card); border-radius: 4px; padding: 10px 14px; white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0; }
 img { max-width: 100%; border-radius: 4px; display: block; }
-.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 440px), 1fr)); gap: 16px; }
+.pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 440px), 1fr)); gap: 16px; }
 .plot { position: relative; overflow-x: auto; }
 .plot > svg { width: 100%; height: auto; display: block; } .plot.single { max-width: 800px; }
 details { margin: 8px 0; } summary { cursor: pointer; color: var(--soft); font-size: 14px; }
@@ -57,12 +58,14 @@ svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink)
 svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
 svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
 svg .legend { paint-order: stroke; stroke: var(--bg); stroke-width: 4px; }
-svg .level-label { text-anchor: end; fill: var(--limit); }
+svg .level-label { text-anchor: end; fill: var(--limit); } svg .halo { paint-order: stroke; stroke: var(--bg); stroke-width: 4px; }
+svg .event { stroke: var(--bad); stroke-width: 1.5; } svg .event-label { fill: var(--bad); font-weight: 600; } svg .event-label.end { text-anchor: end; }
+svg .span { fill: var(--object); fill-opacity: .22; } svg .span1 { fill-opacity: .4; }
 svg .grid { stroke: var(--grid); } svg .axis { stroke: var(--soft); } svg .cursor { stroke: var(--soft); visibility: hidden; }
 svg .band0 { fill: var(--band0); } svg .band1 { fill: var(--band1); }
 svg .line { fill: none; stroke-width: 1.8; stroke-linejoin: round; }
 svg .finger { stroke: var(--finger); } svg .proxy { stroke: var(--proxy); stroke-dasharray: 6 4; } svg .object { stroke: var(--object); }
-svg .force { stroke: var(--force); } svg .tangential { stroke: var(--tangential); } svg .state { stroke: var(--state); }
+svg .force { stroke: var(--force); } svg .tangential { stroke: var(--tangential); } svg .thin { stroke: var(--soft); stroke-width: 1; } svg .thin.second { stroke-dasharray: 2 2; } svg .state { stroke: var(--state); }
 svg .level { stroke: var(--limit); stroke-dasharray: 3 3; }
 svg .dots { fill: none; stroke-width: 3; stroke-linecap: round; stroke-opacity: .75; } svg .dots.big { stroke-width: 8; }
 svg .stick { stroke: var(--force); } svg .slip { stroke: var(--object); }
@@ -85,7 +88,7 @@ svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
 @media print {
   @page { margin: 14mm; } body { font-size: 11pt; } main { padding: 0; max-width: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .plot, .tiles, .verdict, table, figure, h3 + .plot { break-inside: avoid; } h2, h3 { break-after: avoid; } .readout { display: none; }
+  .plot, .tiles, .verdict, table, figure, h3 + .plot { break-inside: avoid; } h2, h3 { break-after: avoid; } .readout, .save { display: none; }
   .pair { grid-template-columns: 1fr 1fr; } .plot, .scroll { overflow: visible; } }
 )CSS";
 
@@ -150,6 +153,8 @@ std::string head(const std::string& title) {
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          svg::escape(title) + "</title>\n<style>" + kStyle + "</style></head>\n<body><main>\n";
 }
+
+const char* style() { return kStyle; }
 
 std::string tail() { return std::string("</main>\n<script>") + kScript + "</script>\n</body></html>\n"; }
 

@@ -6,6 +6,8 @@ namespace presa::page {
 /// Beginning and end of a self-contained page.
 std::string head(const std::string& title);
 std::string tail();
+/// The style sheet of every page.
+const char* style();
 /// A figure rendered for a page, as a file of its own, with the style definitions of the page.
 std::string picture(const std::string& figure_html, const std::string& title);
 

@@ -1,11 +1,15 @@
 #include "apps/common/report/recording_page.h"
 
 #include <cmath>
+#include <cstdlib>
 
+#include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
 #include "framework/device/output_stage.h"
+#include "framework/scene/xml/xml.h"
 
 namespace presa {
 namespace {
@@ -43,13 +47,48 @@ std::vector<double> magnitude(const RecordedTable& table, const std::string& nam
   return out;
 }
 
-svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& finger) {
+constexpr double kTicksMissing = 20;  // in a row: the loop stood still
+
+/// The bodies that the finger touched, by name.
+std::vector<svg::Band> touched(const RecordedSamples& samples, const RecordedTable& finger,
+                               const std::vector<std::string>& bodies) {
+  const std::vector<double>&mode = finger.values("mode"), &body = finger.values("body");
+  std::vector<svg::Band> spans;
+  double before = -1;
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    const double now = mode[i] > 0 ? body[i] : -1;
+    if (i > 0 && samples.time[i] - samples.time[i - 1] > kTicksMissing * samples.haptic_period) before = -1;
+    if (before >= 0) spans.back().end = samples.time[i];
+    if (now >= 0 && now != before) {
+      const auto index = static_cast<std::size_t>(now);
+      const std::string name = index < bodies.size() ? bodies[index] : "body " + fixed(now, 0);
+      spans.push_back({name, samples.time[i], samples.time[i]});
+    }
+    before = now;
+  }
+  return spans;
+}
+
+/// "12.345 s: what" as an event. A text without a time has none.
+void addEvent(const std::string& fault, std::vector<svg::Event>& events) {
+  char* end = nullptr;
+  const double time = std::strtod(fault.c_str(), &end);
+  const std::string what = end;
+  if (end == fault.c_str() || !std::isfinite(time) || !what.starts_with(" s: ")) return;
+  addFault(time, what.substr(4), events);
+}
+
+svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& finger,
+                         const std::vector<std::string>& bodies) {
   svg::TimeFigure figure;
   figure.title = "Force, penetration, speed and place of " + finger.name + " over time";
   figure.time = samples.time;
-  svg::Panel force{.title = "Force", .unit = "N", .height = 170, .from_zero = true};
-  force.series.push_back({"sent", "force", magnitude(finger, "f_command_W")});
-  force.series.push_back({"rendered", "tangential", magnitude(finger, "f_rendered_W")});
+  figure.max_step = kTicksMissing * samples.haptic_period;
+  for (const std::string& fault : samples.faults) addEvent(fault, figure.events);
+  const std::vector<svg::Band> spans = touched(samples, finger, bodies);
+  svg::Panel force{.title = "Force" + svg::touching(spans), .unit = "N", .height = 170, .from_zero = true};
+  force.series.push_back({"rendered", "thin", magnitude(finger, "f_rendered_W")});
+  force.series.push_back({"commanded", "force", magnitude(finger, "f_command_W")});
   svg::Panel depth{.title = "Penetration", .unit = "m", .height = 110, .from_zero = true};
   depth.series.push_back({"depth", "object", finger.values("depth")});
   svg::Panel speed{.title = "Speed", .unit = "m/s", .height = 110, .from_zero = true};
@@ -58,9 +97,12 @@ svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& fi
   place.series.push_back({"x", "finger", finger.values("p_WH_x")});
   place.series.push_back({"y", "proxy", finger.values("p_WH_y")});
   place.series.push_back({"z", "object", finger.values("p_WH_z")});
-  svg::Panel sample{.title = "Sample", .height = 60, .names = {"none", "good", "lost", "lost"}};
+  svg::Panel state{.title = "Contact state", .height = 84, .names = {"none", "stick", "slip"}, .spans = spans};
+  state.series.push_back({"state", "state", finger.values("mode"), true});
+  svg::Panel sample{.title = "Sample", .height = 50, .names = {"none", "good", "lost"}};
   sample.series.push_back({"sample", "state", finger.values("valid"), true});
-  figure.panels = {std::move(force), std::move(depth), std::move(speed), std::move(place), std::move(sample)};
+  figure.panels = {std::move(force), std::move(depth), std::move(speed),
+                   std::move(place), std::move(state), std::move(sample)};
   return figure;
 }
 
@@ -85,7 +127,17 @@ std::vector<std::string> statusTimeline(const RecordedSamples& samples) {
   return lines;
 }
 
-std::string recordingPage(const std::string& file, const RecordedSamples& samples) {
+std::vector<std::string> bodyNames(const std::string& scene_xml) {
+  Diagnostics diagnostics;
+  std::vector<std::string> names;
+  if (const auto document = xml::Document::parse(scene_xml, "scene", diagnostics)) {
+    for (const xml::Element& body : document->root().children("body")) names.push_back(body.attribute("name"));
+  }
+  return names;
+}
+
+std::string recordingPage(const std::string& file, const RecordedSamples& samples,
+                          const std::vector<std::string>& bodies) {
   std::string html = page::head("Presa: " + file) + "<h1>" + svg::escape(file) + "</h1>\n";
   html += "<p>Scene " + svg::escape(samples.scene_file) + ", " + svg::escape(samples.start_utc) +
           format(", %.3f to %.3f s, %zu haptic ticks.</p>\n", samples.time.front(), samples.time.back(),
@@ -93,7 +145,11 @@ std::string recordingPage(const std::string& file, const RecordedSamples& sample
   if (!samples.faults.empty()) html += "<h2>What went wrong</h2>\n" + list(samples.faults);
   html += "<h2>What the output stages did</h2>\n" + list(statusTimeline(samples));
   for (const RecordedTable& finger : samples.fingers)
-    html += "<h2>" + svg::escape(finger.name) + "</h2>\n" + svg::render(figureOf(samples, finger));
+    html += "<h2>" + svg::escape(finger.name) + "</h2>\n" + svg::render(figureOf(samples, finger, bodies));
+  if (!samples.fingers.empty())
+    html +=
+        "<p class=\"caption\">Commanded: after the output stage, as sent to the device. Rendered: before it, thin. "
+        "Every haptic tick is drawn; a curve is interrupted where no tick ran.</p>\n";
   return html + page::tail();
 }
 

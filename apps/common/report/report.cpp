@@ -40,19 +40,21 @@ std::string graspSection(const RunResult& result, const std::optional<GraspFigur
 }
 
 std::string pathSection(const RunResult& result, const std::optional<GraspFigures>& grasp) {
-  if (!result.trace) return {};
+  if (!result.trace || result.contact_points.empty()) return {};
   std::string out = "<h2>Position, grip force and contact state</h2>\n";
   for (std::size_t f = 0; f < result.contact_points.size(); ++f) {
     out += "<h3>" + escape(result.contact_points[f].name) + "</h3>\n" + svg::render(pathFigure(result, grasp, f));
   }
   return out +
-         "<p class=\"caption\">Height is along z. While the object is held, finger and object keep a constant "
+         "<p class=\"caption\">Commanded: after the output stage, as sent to the device. Rendered: before it, thin. "
+         "Without contact there is no normal, and all force counts as its normal part. Height is along z. While the "
+         "object is held, finger and object keep a constant "
          "difference; once it "
-         "slips they part. States: 0 no contact, 1 stick, 2 slip.</p>\n";
+         "slips they part. States: 0 no contact, 1 stick, 2 slip; the strip above them names the touched body.</p>\n";
 }
 
 std::string frictionSection(const RunResult& result, const std::optional<GraspFigures>& grasp) {
-  if (!result.trace) return {};
+  if (!result.trace || result.contact_points.empty()) return {};
   std::string out = "<h2>Friction</h2>\n<div class=\"pair\">\n";
   for (std::size_t f = 0; f < result.contact_points.size(); ++f) {
     out += "<div><h3>" + escape(result.contact_points[f].name) + "</h3>\n" +
@@ -87,7 +89,7 @@ std::string reportHtml(const RunResult& result) {
   out += "<h1>" + escape(scene.name) + "</h1>\n<p class=\"lead\">" + escape(scene.description) + "</p>\n";
   out +=
       verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
-  out += "<h2>Contact points</h2>\n" + html::contactTable(result);
+  if (!result.contact_points.empty()) out += "<h2>Contact points</h2>\n" + html::contactTable(result);
   out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += "<h2>Rates</h2>\n" + html::rateTable(result);
   out += "<h2>Faults and notes</h2>\n" + html::faultsAndNotes(result);

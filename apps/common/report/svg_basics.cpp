@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "apps/common/number_text.h"
 #include "apps/common/report/svg_plot.h"
 
 namespace presa::svg {
@@ -21,9 +21,7 @@ std::vector<double> niceTicks(double low, double high, int target) {
 
 std::string tickText(double value, double step) {
   const int decimals = step > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9) : 3;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value) < step * 1e-6 ? 0.0 : value);
-  return text;
+  return fixed(std::abs(value) < step * 1e-6 ? 0.0 : value, decimals);
 }
 
 std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns) {
@@ -45,6 +43,16 @@ std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double
     for (auto index = std::begin(wanted); index != last; ++index) kept.push_back(line[*index]);
   }
   return kept;
+}
+
+std::string touching(const std::vector<Band>& spans) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> names;
+  for (const Band& span : spans)
+    if (std::find(names.begin(), names.end(), span.label) == names.end()) names.push_back(span.label);
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) out += (i == 0 ? ", touching " : ", ") + names[i];
+  return out + (names.size() > kNamed ? " and " + std::to_string(names.size() - kNamed) + " more" : "");
 }
 
 std::string escape(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
 
 namespace presa::svg {
@@ -214,6 +215,22 @@ std::string facetAt(const FacetFigure& figure, const Axes& axes, std::size_t row
   return out;
 }
 
+Csv csvOf(const FacetFigure& figure) {
+  Csv csv({"where", figure.x_label, figure.y_label, "low", "high", "x low", "x high"});
+  for (std::size_t i = 0; i < figure.facets.size(); ++i) {
+    const std::string& row = figure.rows[i / figure.columns.size()];
+    const std::string& column = figure.columns[i % figure.columns.size()];
+    for (const Layer& layer : figure.facets[i].layers) {
+      for (const FacetPoint& p : layer.points) {
+        const std::string where = row + (row.empty() || column.empty() ? "" : ", ") + column;
+        csv.row(p.label.empty() ? where : where + (where.empty() ? "" : ": ") + p.label,
+                {p.x, p.y, p.low, p.high, p.left, p.right});
+      }
+    }
+  }
+  return csv;
+}
+
 }  // namespace
 
 std::string render(const FacetFigure& figure) {
@@ -226,9 +243,8 @@ std::string render(const FacetFigure& figure) {
   const double first_top = kLegend + (figure.columns.front().empty() ? 4 : kHead);
   const double bottom = first_top + rows * height + (rows - 1) * kGap;
   const Axes axes = axesOf(figure, facet_width, height);
-  std::string out = "<div class=\"plot" + std::string(single ? " single" : "") + "\"><svg viewBox=\"0 0 " + px(width) +
-                    " " + px(bottom + kAxis) + "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" +
-                    legendOf(figure);
+  std::string out = "<svg viewBox=\"0 0 " + px(width) + " " + px(bottom + kAxis) + "\" role=\"img\" aria-label=\"" +
+                    escape(figure.title) + "\">\n" + legendOf(figure);
   for (std::size_t row = 0; row < figure.rows.size(); ++row) {
     for (std::size_t column = 0; column < figure.columns.size(); ++column) {
       const double left = kLeft + static_cast<double>(column) * (facet_width + kGap);
@@ -238,8 +254,10 @@ std::string render(const FacetFigure& figure) {
     }
   }
   out += textAt(0.5 * (kLeft + width - right), bottom + 36, "tick xtick", escape(figure.x_label));
-  return out + "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (first_top + bottom)) +
-         ") rotate(-90)\">" + escape(figure.y_label) + "</text>\n</svg><div class=\"readout\" hidden></div></div>\n";
+  out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (first_top + bottom)) + ") rotate(-90)\">" +
+         escape(figure.y_label) + "</text>\n</svg>";
+  return withSaveLinks(single ? "plot single" : "plot", out, "<div class=\"readout\" hidden></div>", figure.title,
+                       csvOf(figure));
 }
 
 }  // namespace presa::svg

@@ -17,6 +17,12 @@ struct Band {
   double begin = 0, end = 0;
 };
 
+/// A named moment, marked by a line through all panels.
+struct Event {
+  std::string label;
+  double time = 0;
+};
+
 /// A reference level, drawn across the panel.
 struct Level {
   double value = 0;
@@ -29,6 +35,9 @@ struct Series {
   std::string css_class;
   std::vector<double> y;  ///< as TimeFigure::time; NaN interrupts the line
   bool step = false;      ///< keeps its value until the next sample
+  /// Min and max from each sample up to the next, of a faster signal than `y`: the line then shows all of it. Both
+  /// empty: none.
+  std::vector<double> low{}, high{};
 };
 
 /// One plot of a stack that shares the time axis.
@@ -40,14 +49,17 @@ struct Panel {
   std::vector<std::string> names{};  ///< if not empty: labels of y = 0, 1, 2 …
   std::vector<Series> series{};
   std::vector<Level> levels{};
+  std::vector<Band> spans{};  ///< named strips along its top edge: the bodies that a finger touched
 };
 
 struct TimeFigure {
   std::string title;         ///< for screen readers
   std::vector<double> time;  ///< x values of all panels, usually time; ascending
   std::string x_label = "time [s]";
-  std::vector<Band> bands;
-  std::vector<Panel> panels;
+  double max_step = 0;  ///< curves are interrupted where samples are farther apart, as nothing is known there; 0: never
+  std::vector<Band> bands{};
+  std::vector<Event> events{};
+  std::vector<Panel> panels{};
 };
 
 struct Cloud {
@@ -94,7 +106,8 @@ struct WorkFigure {
   std::string legend{};           ///< line of text inside the plot, at its top
 };
 
-/// The panels over one time axis, with legend, bands and the data for the page's hover read-out.
+/// The panels over one time axis, with bands, events, a label at the end of each curve and the data for the page's
+/// hover read-out. Every figure has links below it that save it as SVG and CSV.
 std::string render(const TimeFigure& figure);
 /// Both axes from 0.
 std::string render(const ScatterFigure& figure);
@@ -108,6 +121,8 @@ std::string tickText(double value, double step);
 /// Thins a polyline for a plot `columns` pixels wide to the first, lowest, highest and last point of every column.
 /// Points are kept or dropped, never moved; no extreme is lost.
 std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns);
+/// The names of the spans for a title, each once: ", touching cube, table"; at most three.
+std::string touching(const std::vector<Band>& spans);
 /// Text with & < > " ' replaced by entities.
 std::string escape(const std::string& text);
 

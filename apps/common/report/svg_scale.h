@@ -1,6 +1,7 @@
 #pragma once
-#include <cstdio>
 #include <string>
+
+#include "apps/common/number_text.h"
 
 namespace presa::svg {
 
@@ -14,17 +15,9 @@ struct Scale {
 };
 
 /// Pixel coordinates, rounded to a tenth of a pixel.
-inline std::string px(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
+inline std::string px(double value) { return fixed(value, 1); }
 
-inline std::string number(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
+inline std::string number(double value, int digits) { return significant(value, digits); }
 
 inline std::string textAt(double x, double y, const std::string& css_class, const std::string& escaped) {
   return "<text class=\"" + css_class + "\" x=\"" + px(x) + "\" y=\"" + px(y) + "\">" + escaped + "</text>\n";

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
 
 namespace presa::svg {
@@ -73,6 +74,14 @@ std::string legend(const ScatterFigure& figure) {
   return out;
 }
 
+Csv csvOf(const ScatterFigure& figure) {
+  Csv csv({"what", figure.x_label, figure.y_label});
+  for (const Cloud& cloud : figure.clouds)
+    for (const Point& point : cloud.points) csv.row(cloud.label, {point.x, point.y});
+  for (const Mark& m : figure.marks) csv.row(m.label, {m.at.x, m.at.y});
+  return csv;
+}
+
 }  // namespace
 
 std::string render(const ScatterFigure& figure) {
@@ -89,12 +98,12 @@ std::string render(const ScatterFigure& figure) {
   const Scale x{0, 1.05 * x_high, kLeft, kRight};
   const Scale y{0, y_high, kBottom, kTop};
 
-  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
-                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + axes(figure, x, y);
+  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"" +
+                    escape(figure.title) + "\">\n" + axes(figure, x, y);
   for (const Cloud& cloud : figure.clouds) out += dots(cloud, x, y);
   for (const Ray& line : figure.rays) out += ray(line, x, y);
   for (const Mark& m : figure.marks) out += mark(m, x, y);
-  return out + legend(figure) + "</svg></div>\n";
+  return withSaveLinks("plot", out + legend(figure) + "</svg>", {}, figure.title, csvOf(figure));
 }
 
 }  // namespace presa::svg

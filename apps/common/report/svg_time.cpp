@@ -1,49 +1,43 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "apps/common/report/svg_time.h"
 
-#include "apps/common/report/svg_plot.h"
-#include "apps/common/report/svg_scale.h"
+#include <algorithm>
 
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 1080, kLeft = 70, kRight = 1064;  // [px]
-constexpr double kTop = 26, kBottom = 40, kGap = 44;        // above the first panel, below the last, between two
-constexpr double kCharacter = 6.6;                          // mean width of the labels' font
-constexpr std::size_t kReadouts = 1200;                     // points that the hover read-out knows
+constexpr double kWidth = 1080, kNoLabels = 1064;     // [px]
+constexpr double kTop = 26, kBottom = 40, kGap = 44;  // above the first panel, below the last, between two
+constexpr double kWideCharacter = 8.2;                // of a short label, where it may not be cut
+constexpr double kRow = 18;                           // a row of names above the first panel
+constexpr std::size_t kMaxEventRows = 3;              // further events have a line but no name
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
+/// Right edge of the plotting area, with room for the names of the curves.
+double rightEdge(const TimeFigure& figure) {
+  double widest = 0;
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series)
+      widest = std::max(widest, static_cast<double>(lettersOf(endLabelOf(panel, series))) * kWideCharacter);
   }
-};
-
-Range yRange(const Panel& panel) {
-  if (!panel.names.empty()) return {-0.25, static_cast<double>(panel.names.size()) - 0.75};
-  Range range;
-  for (const Series& series : panel.series)
-    std::for_each(series.y.begin(), series.y.end(), [&](double y) { range.add(y); });
-  for (const Level& level : panel.levels) range.add(level.value);
-  if (panel.from_zero) range.add(0);
-  if (!(range.low <= range.high)) return {0, 1};
-  const double span = range.high - range.low;
-  const double margin = span > 0 ? 0.06 * span : std::max(1e-3, 0.1 * std::abs(range.high));
-  return {panel.from_zero && range.low >= 0 ? 0 : range.low - margin, range.high + margin};
+  return widest > 0 ? kWidth - widest - kSwatch - 14 : kNoLabels;
 }
 
-std::string bandRects(const std::vector<Band>& bands, const Scale& x, double top, double bottom) {
-  std::string out;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    out += "<rect class=\"band band" + std::to_string(i % 2) + "\" x=\"" + px(x(bands[i].begin)) + "\" y=\"" + px(top) +
-           "\" width=\"" + px(x(bands[i].end) - x(bands[i].begin)) + "\" height=\"" + px(bottom - top) + "\"><title>" +
-           escape(bands[i].label) + "</title></rect>\n";
+template <class Interval>
+void clip(std::vector<Interval>& bands, const Scale& x) {
+  for (Interval& band : bands) {
+    band.begin = std::clamp(band.begin, x.data_low, x.data_high);
+    band.end = std::clamp(band.end, x.data_low, x.data_high);
   }
-  return out;
+  std::erase_if(bands, [](const Interval& band) { return !(band.end > band.begin); });
+}
+
+/// Bands, spans and events inside the axis. An event after the last sample is drawn at the end.
+TimeFigure clipped(const TimeFigure& figure, const Scale& x) {
+  TimeFigure shown = figure;
+  clip(shown.bands, x);
+  for (Panel& panel : shown.panels) clip(panel.spans, x);
+  std::erase_if(shown.events, [&](const Event& event) { return !(event.time >= x.data_low); });
+  for (Event& event : shown.events) event.time = std::min(event.time, x.data_high);
+  return shown;
 }
 
 std::string bandLabels(const std::vector<Band>& bands, const Scale& x, double y) {
@@ -51,184 +45,77 @@ std::string bandLabels(const std::vector<Band>& bands, const Scale& x, double y)
   for (const Band& band : bands) {
     const double width = x(band.end) - x(band.begin);
     // a name that does not fit appears only in the tooltip and the read-out
-    if (static_cast<double>(band.label.size()) * kCharacter > width) continue;
+    if (static_cast<double>(lettersOf(band.label)) * kCharacterPx > width) continue;
     out += textAt(0.5 * (x(band.begin) + x(band.end)), y, "phase", escape(band.label));
   }
   return out;
 }
 
-std::string yAxis(const Panel& panel, const Range& range, const Scale& y) {
+/// A line through all panels at each event, with its time and name above them, on the side with more room.
+std::string eventMarks(const std::vector<Event>& events, const Scale& x, double top, double bottom) {
   std::string out;
-  const auto tick = [&](double value, const std::string& label) {
-    out += lineFromTo(kLeft, y(value), kRight, y(value), "grid");
-    out += textAt(kLeft - 8, y(value) + 4, "tick ytick", label);
-  };
-  if (!panel.names.empty()) {
-    for (std::size_t i = 0; i < panel.names.size(); ++i) {
-      tick(static_cast<double>(i), escape(panel.names[i]) + " " + std::to_string(i));
-    }
-    return out;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const double at = x(events[i].time);
+    const std::string name = tickText(events[i].time, 1e-3) + " s: " + events[i].label;
+    const bool named = i<kMaxEventRows, left = at> 0.5 * (x.pixel_low + x.pixel_high);
+    const double y = top + kRow * static_cast<double>(i);
+    out += "<line class=\"event\" x1=\"" + px(at) + "\" y1=\"" + px(named ? y - 11 : top) + "\" x2=\"" + px(at) +
+           "\" y2=\"" + px(bottom) + "\"><title>" + escape(name) + "</title></line>\n";
+    if (!named) continue;
+    const std::size_t unnamed = i + 1 == kMaxEventRows ? events.size() - kMaxEventRows : 0;
+    const std::string more = unnamed > 0 ? " (and " + std::to_string(unnamed) + " more)" : "";
+    const double room = left ? at - x.pixel_low : x.pixel_high - at;
+    out += textAt(left ? at - 5 : at + 5, y, left ? "event-label halo end" : "event-label halo",
+                  escape(shortened(name + more, room - 10)));
   }
-  const std::vector<double> ticks = niceTicks(range.low, range.high, static_cast<int>(panel.height / 34));
+  return out;
+}
+
+std::string xLabels(const std::string& label, const Scale& x, double bottom) {
+  std::string out;
+  const std::vector<double> ticks = niceTicks(x.data_low, x.data_high, kTimeTicks);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 0;
-  for (const double value : ticks) tick(value, tickText(value, step));
-  return out;
-}
-
-std::string legend(const Panel& panel, double y) {
-  std::string out =
-      textAt(kLeft, y, "panel-title", escape(panel.title + (panel.unit.empty() ? "" : " [" + panel.unit + "]")));
-  double right = kRight;
-  for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series) {
-    right -= static_cast<double>(series->label.size()) * kCharacter;
-    out += textAt(right, y, "legend", escape(series->label));
-    out += lineFromTo(right - 24, y - 4, right - 6, y - 4, "line " + series->css_class);
-    right -= 40;
-  }
-  return out;
-}
-
-std::string path(const std::vector<Point>& points, const Scale& x, const Scale& y, bool step) {
-  std::string out;
-  const Point* previous = nullptr;
-  for (const Point& point : decimate(points, x.data_low, x.data_high, static_cast<int>(x.pixel_high - x.pixel_low))) {
-    const std::string at = px(x(point.x));
-    if (!previous) {
-      out += "M" + at + " " + px(y(point.y));
-    } else if (!step) {
-      out += "L" + at + " " + px(y(point.y));
-    } else if (point.y != previous->y) {
-      out += "H" + at + "V" + px(y(point.y));
-    }
-    previous = &point;
-  }
-  if (step && previous) out += "H" + px(x(points.back().x));
-  return out;
-}
-
-std::string linePath(const std::vector<double>& time, const Series& series, const Scale& x, const Scale& y) {
-  std::string out;
-  std::vector<Point> run;
-  const auto flush = [&] {
-    if (!run.empty()) out += path(run, x, y, series.step);
-    run.clear();
-  };
-  for (std::size_t i = 0; i < time.size(); ++i) {
-    if (std::isfinite(series.y[i])) {
-      run.push_back({time[i], series.y[i]});
-    } else {
-      flush();
-    }
-  }
-  flush();
-  return out;
-}
-
-std::string panelBody(const TimeFigure& figure, const Panel& panel, const Scale& x, double top) {
-  const Range range = yRange(panel);
-  const double bottom = top + panel.height;
-  const Scale y{range.low, range.high, bottom, top};
-  std::string out = legend(panel, top - 9) + bandRects(figure.bands, x, top, bottom) + yAxis(panel, range, y);
-  for (const Level& level : panel.levels) {
-    out += lineFromTo(kLeft, y(level.value), kRight, y(level.value), "level " + level.css_class);
-    out += textAt(kRight - 6, y(level.value) - 5, "level-label", escape(level.label));
-  }
-  for (const Series& series : panel.series) {
-    out += "<path class=\"line " + series.css_class + "\" d=\"" + linePath(figure.time, series, x, y) + "\"/>\n";
-  }
-  return out + lineFromTo(kLeft, bottom, kRight, bottom, "axis");
-}
-
-std::string xAxis(const std::string& label, const Scale& x, double top, double bottom) {
-  std::string out;
-  const std::vector<double> ticks = niceTicks(x.data_low, x.data_high, 12);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 0;
-  for (const double t : ticks) {
-    out += lineFromTo(x(t), top, x(t), bottom, "grid");
-    out += textAt(x(t), bottom + 16, "tick xtick", tickText(t, step));
-  }
-  return out + textAt(0.5 * (kLeft + kRight), bottom + 34, "tick xtick", escape(label));
-}
-
-std::string jsonText(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    // "</script>" must not appear inside the data block
-    out += c == '<'                               ? std::string("\\u003c")
-           : static_cast<unsigned char>(c) < 0x20 ? std::string(" ")
-                                                  : std::string(1, c);
-  }
-  return out + "\"";
-}
-
-/// Samples, names and pixel range for the read-out script of the page.
-std::string readoutData(const TimeFigure& figure, const Scale& x) {
-  const std::size_t stride = std::max<std::size_t>(1, (figure.time.size() + kReadouts - 1) / kReadouts);
-  const auto values = [&](const std::vector<double>& all) {
-    std::string out = "[";
-    for (std::size_t i = 0; i < all.size(); i += stride) {
-      if (i > 0) out += ',';
-      out += std::isfinite(all[i]) ? number(all[i], 5) : "null";
-    }
-    return out + "]";
-  };
-  std::string out = "{\"x0\":" + px(x.pixel_low) + ",\"x1\":" + px(x.pixel_high) + ",\"t0\":" + number(x.data_low, 9) +
-                    ",\"t1\":" + number(x.data_high, 9) + ",\"time\":" + values(figure.time) + ",\"bands\":[";
-  for (std::size_t i = 0; i < figure.bands.size(); ++i) {
-    out += i > 0 ? ",[" : "[";
-    out += jsonText(figure.bands[i].label) + "," + number(figure.bands[i].begin, 9) + "," +
-           number(figure.bands[i].end, 9) + "]";
-  }
-  out += "],\"series\":[";
-  bool first = true;
-  for (const Panel& panel : figure.panels) {
-    for (const Series& series : panel.series) {
-      out += first ? "{\"label\":" : ",{\"label\":";
-      out += jsonText(series.label) + ",\"unit\":" + jsonText(panel.unit) + ",\"cls\":" + jsonText(series.css_class) +
-             ",\"y\":" + values(series.y) + ",\"names\":[";
-      for (std::size_t i = 0; i < panel.names.size(); ++i) {
-        if (i > 0) out += ',';
-        out += jsonText(panel.names[i]);
-      }
-      out += "]}";
-      first = false;
-    }
-  }
-  return out + "]}";
+  for (const double t : ticks) out += textAt(x(t), bottom + 16, "tick xtick", tickText(t, step));
+  return out + textAt(0.5 * (x.pixel_low + x.pixel_high), bottom + 34, "tick xtick", escape(label));
 }
 
 }  // namespace
 
+std::size_t lettersOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string shortened(const std::string& text, double px) {
+  const auto room = static_cast<std::size_t>(std::max(px / kCharacterPx, 2.0));
+  if (lettersOf(text) <= room) return text;
+  std::size_t bytes = 0;
+  for (std::size_t letters = 0; bytes < text.size(); ++bytes)
+    if ((text[bytes] & 0xC0) != 0x80 && ++letters == room) break;
+  return text.substr(0, bytes) + "…";
+}
+
 std::string render(const TimeFigure& figure) {
   if (figure.time.size() < 2) return "<p class=\"empty\">No samples to plot.</p>\n";
-  const Scale x{figure.time.front(), figure.time.back(), kLeft, kRight};
-  std::vector<Band> bands = figure.bands;
-  for (Band& band : bands) {
-    band.begin = std::clamp(band.begin, x.data_low, x.data_high);
-    band.end = std::clamp(band.end, x.data_low, x.data_high);
-  }
-  std::erase_if(bands, [](const Band& band) { return !(band.end > band.begin); });
-  TimeFigure shown = figure;
-  shown.bands = bands;
-
-  const double first_top = kTop + (bands.empty() ? 0 : 20);
-  double bottom = first_top - kGap;
-  for (const Panel& panel : figure.panels) bottom += kGap + panel.height;
-  const std::string height = px(bottom + kBottom);
-  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + height +
-                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n";
-  double top = first_top;
+  const Scale x{figure.time.front(), figure.time.back(), kTimeLeft, rightEdge(figure)};
+  const TimeFigure shown = clipped(figure, x);
+  const double events_top = kTop - 14 + (shown.bands.empty() ? 0 : kRow);
+  const double event_rows = static_cast<double>(std::min(shown.events.size(), kMaxEventRows));
+  const double first_top = kTop + (shown.bands.empty() ? 0 : 20) + kRow * event_rows;
   std::string panels;
-  for (const Panel& panel : figure.panels) {
+  double top = first_top;
+  for (const Panel& panel : shown.panels) {
     panels += panelBody(shown, panel, x, top);
     top += panel.height + kGap;
   }
-  out += bandLabels(bands, x, 12) + panels + xAxis(figure.x_label, x, first_top, bottom);
-  out += lineFromTo(kLeft, first_top, kLeft, bottom, "cursor");
-  out += "</svg><div class=\"readout\" hidden></div><script type=\"application/json\">" + readoutData(shown, x) +
-         "</script></div>\n";
-  return out;
+  const double bottom = top - kGap;
+  const std::string picture = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(bottom + kBottom) +
+                              "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" +
+                              bandLabels(shown.bands, x, 12) + panels +
+                              eventMarks(shown.events, x, events_top, bottom) + xLabels(figure.x_label, x, bottom) +
+                              lineFromTo(kTimeLeft, first_top, kTimeLeft, bottom, "cursor") + "</svg>";
+  const std::string data =
+      "<div class=\"readout\" hidden></div><script type=\"application/json\">" + readoutData(shown, x) + "</script>";
+  return withSaveLinks("plot", picture, data, figure.title, csvOf(shown));
 }
 
 }  // namespace presa::svg

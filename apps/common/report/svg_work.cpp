@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
 
 namespace presa::svg {
@@ -106,6 +107,14 @@ std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y,
   return out;
 }
 
+Csv csvOf(const WorkFigure& figure) {
+  Csv csv({"setting", figure.x_label, figure.x_label + " low", figure.x_label + " high", figure.y_label});
+  for (const WorkPoint& point : figure.points)
+    csv.row(point.label, {point.at.x, point.x_low, point.x_high, point.failed ? NAN : point.at.y});
+  for (const Point& point : figure.front) csv.row("line", {point.x, NAN, NAN, point.y});
+  return csv;
+}
+
 }  // namespace
 
 std::string render(const WorkFigure& figure) {
@@ -120,9 +129,8 @@ std::string render(const WorkFigure& figure) {
   if (!(y_span.high > 0)) y_span = {0.1, 1};
   const LogScale x = x_span.over(kLeft, kRight), y = y_span.over(kBottom, kTop + 16);
 
-  std::string out = "<div class=\"plot\"><svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) +
-                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + levels(figure, x, y) +
-                    axes(figure, x, y);
+  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"" +
+                    escape(figure.title) + "\">\n" + levels(figure, x, y) + axes(figure, x, y);
   if (!figure.legend.empty()) out += textAt(kLeft + 10, kTop + 14, "legend", escape(figure.legend));
   std::string path;
   for (const Point& point : figure.front)
@@ -135,7 +143,7 @@ std::string render(const WorkFigure& figure) {
       if ((point.css_class == "usual") == usual) out += symbol(point, x, y, point.at.y <= figure.floor);
     }
   }
-  return out + "</svg><div class=\"readout\" hidden></div></div>\n";
+  return withSaveLinks("plot", out + "</svg>", "<div class=\"readout\" hidden></div>", figure.title, csvOf(figure));
 }
 
 }  // namespace presa::svg

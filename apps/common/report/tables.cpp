@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "apps/common/machine.h"
+#include "apps/common/number_text.h"
 #include "apps/common/report/html.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/summary.h"
+#include "apps/common/version.h"
 
 namespace presa::html {
 namespace {
 
 using svg::escape;
-
-std::string fixed(double value, int decimals) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
 
 std::string count(std::uint64_t value) { return std::to_string(value); }
 
@@ -48,7 +44,7 @@ std::string graspTiles(const GraspFigures& grasp) {
          tile("held in stick", fixed(grasp.held_in_stick, 2) + " s") +
          tile("offset constant to", fixed(offset * 1000, 3) + " mm") +
          tile("grip ripple", fixed(ripple * 100, 2) + " %") +
-         (grasp.slip_limit > 0 ? tile("slip limit m g / (" + std::to_string(grasp.fingers.size()) + " μ<sub>s</sub>)",
+         (grasp.slip_limit > 0 ? tile("slip limit m g / (" + std::to_string(grasp.fingers.size()) + " μₛ)",
                                       fixed(grasp.slip_limit, 3) + " N")
                                : std::string{}) +
          "</div>\n";
@@ -64,7 +60,7 @@ std::string graspTable(const RunResult& result, const GraspFigures& grasp) {
                  slip ? fixed(slip->time, 3) : "–", slip ? fixed(slip->normal_force, 4) : "–",
                  slip && grasp.slip_limit > 0 ? fixed((slip->normal_force / grasp.slip_limit - 1) * 100, 1) : "–"});
   }
-  return table({"contact point", "in stick [%]", "offset range [mm]", "mean grip [N]", "share of weight [%]",
+  return table({"contact point", "in stick [%]", "offset range [mm]", "mean grip rendered [N]", "share of weight [%]",
                 "ripple [%]", "slip at [s]", "grip at slip [N]", "against limit [%]"},
                rows);
 }
@@ -78,9 +74,10 @@ std::string contactTable(const RunResult& result) {
              fixed(sum.mean_normal_force, 3), fixed(sum.max_normal_force, 3), count(sum.slip_onsets), count(sum.leaps),
              count(sum.pop_through), sum.reaction.windows == 0 ? "–" : fixed(100 * sum.reaction.worst, 2) + " %"});
   }
-  return table({"contact point", "none [s]", "stick [s]", "slip [s]", "mean normal [N]", "max normal [N]",
-                "slip onsets", "out of folds", "pop-through", "impulse mismatch in any 0.1 s"},
-               rows);
+  return table(
+      {"contact point", "none [s]", "stick [s]", "slip [s]", "mean normal rendered [N]", "max normal rendered [N]",
+       "slip onsets", "out of folds", "pop-through", "impulse mismatch in any 0.1 s"},
+      rows);
 }
 
 std::string objectTable(const RunResult& result) {
@@ -150,12 +147,14 @@ std::string provenance(const RunResult& result) {
     return escape(name) + (file.empty() ? "" : " <code>" + escape(file) + "</code>");
   };
   std::string rows =
-      row({"scene", named(world.scene.name, world.scene.file)}) + row({"rig", named(world.rig.name, world.rig.file)}) +
+      row({"scene", named(world.scene.name, world.scene.file)}) +
+      (world.rig.name.empty() ? "" : row({"rig", named(world.rig.name, world.rig.file)})) +
       row({"mode", result.realtime ? "real time" : "lockstep"}) + row({"seed", std::to_string(result.seed)}) +
       row({"simulated",
            fixed(result.simulated_seconds, 3) + " s in " + fixed(result.wall_seconds, 3) + " s of wall time"}) +
       row({"state hash", "<code>" + hashText(result.state_hash) + "</code>"}) +
-      row({"Presa version", escape(result.version)});
+      row({"Presa version", escape(versionText(result.version))}) + row({"machine", escape(machineLine())});
+  if (!result.started.empty()) rows = row({"started", escape(result.started)}) + rows;
   if (!result.recording.file.empty()) {
     rows += row({"recording", "<code>" + escape(result.recording.file) + "</code>, " + count(result.recording.rows) +
                                   " rows, " + count(result.recording.dropped) + " dropped"});

@@ -1,6 +1,7 @@
 #include "apps/common/terminal/closing.h"
 
 #include <cstdio>
+#include <cstdlib>
 
 #include "apps/common/summary.h"
 #include "apps/common/terminal/status_line.h"
@@ -56,6 +57,20 @@ std::string rateTable(const RunResult& result) {
   return out;
 }
 
+/// The symbol of static friction in ASCII where the terminal does not show UTF-8.
+std::string forTerminal(std::string text) {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* set = std::getenv(variable);
+    if (set == nullptr || *set == '\0') continue;
+    const std::string locale = set;
+    if (locale.find("UTF-8") != std::string::npos || locale.find("utf8") != std::string::npos) return text;
+    break;
+  }
+  const std::string symbol = "μₛ";
+  for (std::size_t at = 0; (at = text.find(symbol, at)) != std::string::npos;) text.replace(at, symbol.size(), "mu_s");
+  return text;
+}
+
 }  // namespace
 
 std::string closingText(const RunResult& result, const std::string& summary_file, const std::string& report_file,
@@ -84,8 +99,9 @@ std::string closingText(const RunResult& result, const std::string& summary_file
 }
 
 void printClosing(const RunResult& result, const std::string& summary_file, const std::string& report_file) {
-  std::fputs(closingText(result, summary_file, report_file, wantsColor(stdout), terminal::columnsOf(stdout)).c_str(),
-             stdout);
+  const std::string text =
+      closingText(result, summary_file, report_file, wantsColor(stdout), terminal::columnsOf(stdout));
+  std::fputs(forTerminal(text).c_str(), stdout);
 }
 
 }  // namespace presa

@@ -68,12 +68,38 @@ std::size_t placeOf(const std::string& name, std::vector<std::string>& names) {
   return place;
 }
 
+/// "ln(mu_s / standard)" for a level that a method chose, else the name of the variable, with its unit.
+std::string xLabel(const wanted::Psychometric& what, const Context& context) {
+  const Stimulus stimulus(what, context.experiment);
+  if (!stimulus.column()) return context.heading(what.x);
+  const std::string &name = stimulus.column()->name, &unit = stimulus.column()->unit;
+  const auto sized = [&](const std::string& text) { return stimulus.folded() ? "|" + text + "|" : text; };
+  switch (context.experiment.procedure->stimulus.axis.unit) {
+    case psychophysics::Unit::kLinear:
+      return sized(name + " - standard") + " [" + (unit.empty() ? "1" : unit) + "]";
+    case psychophysics::Unit::kLnRatio:
+      return sized("ln(" + name + " / standard)") + " [1]";
+    case psychophysics::Unit::kDecibel:
+      return sized("20 lg(" + name + " / standard)") + " [dB]";
+  }
+  return context.heading(what.x);
+}
+
+/// What a positive answer means.
+std::string yLabel(const wanted::Psychometric& what, const Context& context) {
+  const auto& procedure = context.experiment.procedure;
+  if (what.y != "positive" || !procedure) return "proportion of " + what.y + " [1]";
+  if (procedure->task == Task::kYesNo) return "proportion of yes answers [1]";
+  return procedure->coding == psychophysics::Coding::kCorrect ? "proportion of right answers [1]"
+                                                              : "proportion of answers “greater” [1]";
+}
+
 }  // namespace
 
 std::string figureOf(const wanted::Psychometric& what, const Context& context, const std::vector<Fit>& fits) {
   const std::size_t subjects = context.trials.subjects.size();
   const bool pooled = subjects > kMaxFacetRows;
-  svg::FacetFigure figure{"Psychometric functions", context.heading(what.x), "proportion of " + what.y, {}, {}};
+  svg::FacetFigure figure{"Psychometric functions", xLabel(what, context), yLabel(what, context), {}, {}};
   struct Placed {
     const Fit* fit;
     std::size_t row, column;

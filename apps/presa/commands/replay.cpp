@@ -108,7 +108,8 @@ int runReplay(const ReplayArguments& arguments) {
   const bool shown = viewOf(arguments) != RunOptions::View::kNone;
   if (recording.first_tick > 0 || !arguments.page.empty() || shown) {
     const RecordedSamples samples = recordPlugin().samples(arguments.file);
-    if (!arguments.page.empty()) writeFileAtomically(arguments.page, recordingPage(arguments.file, samples));
+    if (!arguments.page.empty())
+      writeFileAtomically(arguments.page, recordingPage(arguments.file, samples, bodyNames(recording.scene_xml)));
     if (shown) {
       const int status = showRecording(arguments, recording, samples);
       if (status != kExitOk || !arguments.verify) return status;

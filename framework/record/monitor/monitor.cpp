@@ -12,7 +12,7 @@ namespace {
 // Limits the trace of a run of any length and any number of fingers to about 100 MB.
 double maxTraceSamples(const World& world) {
   constexpr double kBytes = 100e6, kSamples = 40'000;
-  const std::size_t finger = sizeof(FingerContact) + sizeof(Vec3);
+  const std::size_t finger = sizeof(FingerContact) + sizeof(Vec3) + sizeof(TraceRanges);
   return std::min(kSamples, kBytes / static_cast<double>(sizeof(TraceSample) + world.scene.devices.size() * finger));
 }
 
@@ -34,6 +34,12 @@ std::int32_t scriptedPhase(const DeviceState& device) noexcept {
 }
 
 }  // namespace
+
+ForceParts partsOf(const Vec3& f_H_W, const FingerContact& contact) noexcept {
+  if (!touches(contact)) return {f_H_W.norm(), 0};
+  const double normal = f_H_W.dot(contact.nhat_W);
+  return {normal, (f_H_W - normal * contact.nhat_W).norm()};
+}
 
 struct Monitor::Impl {
   Impl(std::shared_ptr<const World> shared_world, double duration, double loosen, double trace_rate)
@@ -64,6 +70,7 @@ struct Monitor::Impl {
     while (TraceSample* sample = trace.add()) {
       sample->fingers.resize(finger_count);
       sample->f_command.resize(finger_count);
+      sample->ranges.resize(finger_count);
     }
     trace.clear();
   }
@@ -79,6 +86,8 @@ struct Monitor::Impl {
   void noteGrasp(std::size_t i, double time) noexcept;
   void keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact, const ForceCommand& command,
             const ObjectState* state) noexcept;
+  /// Extends the ranges of the last trace sample by this tick; `first`: the sample's own tick.
+  void extendRanges(const ContactExchange& contact, const ForceCommand& command, bool first) noexcept;
 
   std::shared_ptr<const World> world;
   double loosen_time;
@@ -184,7 +193,12 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
 
 void Monitor::Impl::keep(const Tick& tick, const DeviceState& device, const ContactExchange& contact,
                          const ForceCommand& command, const ObjectState* state) noexcept {
-  if (tick.index % stride != 0 || trace.size() == trace.capacity()) return;
+  if (tick.index % stride != 0) {
+    if (!trace.empty() && tick.time - trace[trace.size() - 1].time < static_cast<double>(stride) * tick.period)
+      extendRanges(contact, command, false);
+    return;
+  }
+  if (trace.size() == trace.capacity()) return;
   TraceSample& now = *trace.add();
   now.time = tick.time;
   now.phase = scriptedPhase(device);
@@ -192,6 +206,24 @@ void Monitor::Impl::keep(const Tick& tick, const DeviceState& device, const Cont
   now.f_command = command.f_H_W;
   for (std::size_t slot = 0; slot < traced.size(); ++slot)
     now.bodies[slot] = poseOf(world->scene, state, traced[slot], tick.time);
+  extendRanges(contact, command, true);
+}
+
+void Monitor::Impl::extendRanges(const ContactExchange& contact, const ForceCommand& command, bool first) noexcept {
+  TraceSample& sample = trace[trace.size() - 1];
+  const std::size_t count = std::min({contact.fingers.size(), command.f_H_W.size(), sample.ranges.size()});
+  for (std::size_t f = 0; f < count; ++f) {
+    const FingerContact& finger = contact.fingers[f];
+    const ForceParts commanded = partsOf(command.f_H_W[f], finger);
+    TraceRanges& ranges = sample.ranges[f];
+    const auto extend = [first](TraceRange& range, double value) { first ? range.begin(value) : range.add(value); };
+    extend(ranges.height, finger.p_WH.z());
+    extend(ranges.proxy_height, finger.p_WP.z());
+    extend(ranges.rendered_normal, finger.normal_force);
+    extend(ranges.rendered_tangential, finger.tangential_force_W.norm());
+    extend(ranges.commanded_normal, commanded.normal);
+    extend(ranges.commanded_tangential, commanded.tangential);
+  }
 }
 
 Monitor::Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate)

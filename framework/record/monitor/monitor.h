@@ -48,12 +48,37 @@ struct ObjectSummary {
   double peak_speed = 0;  ///< [m/s]
 };
 
+/// Min and max of a quantity over some ticks.
+struct TraceRange {
+  double min = 0, max = 0;
+  void begin(double value) noexcept { min = max = value; }
+  void add(double value) noexcept {
+    min = value < min ? value : min;
+    max = value > max ? value : max;
+  }
+};
+/// Ranges of one finger over every tick from a trace sample up to the next, so that a plot shows what the decimated
+/// samples miss: 80 Hz in samples at 125 Hz.
+struct TraceRanges {
+  TraceRange height, proxy_height;  ///< along z [m]
+  TraceRange rendered_normal, rendered_tangential;
+  TraceRange commanded_normal, commanded_tangential;  ///< after the output stage, see partsOf() [N]
+};
+
+/// Part of a force on the finger that presses along the normal, and the rest [N]. Without contact there is no normal:
+/// then all of the force counts as its normal part, so that none is left out.
+struct ForceParts {
+  double normal = 0, tangential = 0;
+};
+ForceParts partsOf(const Vec3& f_H_W, const FingerContact& contact) noexcept;
+
 /// One sample of the plots, with the quantities of figure 12 of the PERCRO paper.
 struct TraceSample {
   double time = 0;
   std::int32_t phase = -1;
   std::vector<FingerContact> fingers;  ///< HIP, proxy, mode, forces
   std::vector<Vec3> f_command;         ///< after the output stage [N]
+  std::vector<TraceRanges> ranges;     ///< by finger
   std::array<Pose, 4> bodies;          ///< poses of the first four free bodies
 };
 

@@ -16,7 +16,7 @@ FingerView pressing(const Vec3& nhat_W, double newton, std::int32_t body = 0) {
   finger.mode = ContactMode::kStick;
   finger.body = body;
   finger.nhat_W = nhat_W;
-  finger.normal_force = newton;
+  finger.normal_force = finger.commanded_normal = newton;
   return finger;
 }
 
@@ -29,6 +29,30 @@ TEST(Readings, GripForceIsWhatTheNormalsCancel) {
   EXPECT_DOUBLE_EQ(gripForce({pressing(x, 4), pressing(x, 4)}), 0);
   EXPECT_DOUBLE_EQ(gripForce({pressing(x, 4, 0), pressing(-x, 4, 1)}), 0);  // two objects, no grip
   EXPECT_DOUBLE_EQ(gripForce({}), 0);
+}
+
+// The display said "16.00 of 10 N": it compared what was rendered with what the devices can give.
+TEST(Readings, GripForceIsThatOfTheDevicesAndNeverAboveTheirLimits) {
+  auto run = view_test::makePinchRun(RunOptions::View::kOffscreen, "");
+  const auto states = view_test::makePinchStates(*run.world, {0, 0, 0.08});
+  ViewFrame frame;
+  frame.device = states.device;
+  frame.contacts = states.contacts;
+  frame.X_WB = {Pose{}, Pose{{0, 0, 0.08}, Quat::Identity()}};
+  for (FingerContact& contact : frame.contacts.fingers) contact.normal_force = 16;
+  frame.forces = ForceCommand(2);
+  for (std::size_t f = 0; f < 2; ++f) frame.forces.f_H_W[f] = 10 * frame.contacts.fingers[f].nhat_B;
+  EXPECT_DOUBLE_EQ(gripForce(fingerViews(*run.world, frame)), 10);
+  frame.forces = ForceCommand(2);
+  EXPECT_DOUBLE_EQ(gripForce(fingerViews(*run.world, frame)), 0) << "after a fault";
+
+  std::vector<DeviceRole> roles(2);
+  roles[0].limits.force = 10;
+  roles[1].limits.force = 5;
+  EXPECT_DOUBLE_EQ(maxGripForce(roles), 5);
+  roles.resize(5, roles[0]);
+  for (DeviceRole& role : roles) role.limits.force = 10;
+  EXPECT_DOUBLE_EQ(maxGripForce(roles), 25);
 }
 
 // Fingertips are placed relative to the body as drawn: when the cube has moved and rotated since the contact was

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/common/report/svg_plot.h"
+
+namespace presa {
+
+/// Adds a fault as an event of a plot, without the explanation after its semicolon. The same fault of another finger at
+/// the same time joins the event before it: "thumb, index: device disconnected".
+void addFault(double time, const std::string& text, std::vector<svg::Event>& events);
+
+}  // namespace presa
