@@ -3,8 +3,8 @@
 
 namespace presa::page {
 
-/// Beginning and end of a self-contained page.
-std::string head(const std::string& title);
+/// Beginning and end of a self-contained page. `style`: rules of this page, in addition to those of all pages.
+std::string head(const std::string& title, const std::string& style = {});
 std::string tail();
 /// A figure rendered for a page, as a file of its own, with the style definitions of the page.
 std::string picture(const std::string& figure_html, const std::string& title);
