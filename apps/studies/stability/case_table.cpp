@@ -56,11 +56,12 @@ std::string reference(const Row& row, bool oracle, bool bound) {
 
 std::string resultCell(const Row& row) {
   const Verdict verdict = row.finding.verdict;
-  std::string text = signHtml(verdict) + " ";
+  std::string text;
   if (verdict == Verdict::kFailed && !row.reason.empty()) {
-    text += "failed: " + escape(row.reason);
+    text = signHtml(verdict) + " failed: " + escape(row.reason);
   } else {
-    text += "<span class=\"count\">" + escape(valueText(row.finding.value, row.finding.unit)) + "</span>";
+    text = "<span class=\"count\">" + signHtml(verdict) + " " + escape(valueText(row.finding.value, row.finding.unit)) +
+           "</span>";
     if (verdict != Verdict::kStable) text += std::string(" <small>") + toString(verdict) + "</small>";
   }
   if (row.worse()) text += " " + worseSignHtml() + " <small>expected " + toString(row.expected) + "</small>";

@@ -30,7 +30,7 @@ const std::vector<Family>& families() {
       {"pyramid friction", {"pyramid friction"}},
       {"other rotation", {"engine's rotation", "no gyroscopic term", "one Euler step", "R (I + S dt)"}},
       {"other renderers", {"penalty", "scp", "intermediate", "fca_mesh"}},
-      {"one case's own", {}},
+      {"of one case alone", {}},
   };
   return kFamilies;
 }
@@ -73,7 +73,7 @@ std::string gridCell(std::size_t family, const std::vector<const Row*>& rows) {
                     "\" data-family=\"" + escape(families()[family].title) + "\"><span class=\"count\">" +
                     signHtml(tally.worst) + format(" %zu/%zu", tally.stable, tally.all) +
                     (tally.worse > 0 ? " " + worseSignHtml() : "") + "</span>";
-  if (families()[family].methods.size() == 1) return out + "</td>";
+  if (!families()[family].methods.empty()) return out + "</td>";
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return out + " <small>" + escape(list) + "</small></td>";
@@ -96,7 +96,7 @@ std::string overviewHtml(const std::vector<Case>& cases, const std::vector<Row>&
     for (std::size_t i = 0; i < present.size(); ++i) {
       if (present[i]) out += gridCell(i, own);
     }
-    out += "<td class=\"share\" data-family=\"largest share of a bound\">" + largestShare(own) + "</td></tr>\n";
+    out += "<td class=\"share\" data-family=\"share of a bound\">" + largestShare(own) + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

@@ -14,14 +14,16 @@ td.fill small, td.fill, td.fill.warn, td.fill.bad, td.fill.good { color: var(--i
 table.overview { border-collapse: separate; border-spacing: 2px 0; }
 table.overview th, table.overview td { padding: 2px 8px; white-space: normal; line-height: 1.35; border-bottom: 1px solid var(--bg); }
 table.overview tbody tr { position: relative; }
-table.overview tbody th { color: var(--ink); font-weight: 400; min-width: 250px; padding-left: 0; vertical-align: middle; }
-table.overview td { text-align: left; min-width: 84px; } table.overview thead th { text-align: left; }
+table.overview tbody th { color: var(--ink); font-weight: 400; min-width: 380px; vertical-align: middle; }
+table.overview th:first-child { padding-left: 0; } table.overview thead th { text-align: left; }
+table.overview td { text-align: left; min-width: 78px; }
 table.overview td.share, table.overview thead th:last-child { text-align: right; min-width: 76px; }
 table.overview td small { display: block; line-height: 1.2; }
 table.overview a::after { content: ""; position: absolute; inset: 0; }
 table.overview tbody tr:hover th { background: var(--card); }
 .tools button { font: inherit; font-size: 14px; color: var(--ink); background: var(--card); border: 1px solid var(--rule);
   border-radius: 4px; padding: 3px 12px; margin-right: 6px; cursor: pointer; }
+details.case .plot + .scroll { margin-top: 14px; }
 details.case { margin: 0; border-top: 1px solid var(--rule); scroll-margin-top: 8px; }
 details.case > summary { color: var(--ink); padding: 4px 0; } details.case[open] { padding-bottom: 24px; }
 details.case[open] > summary b { font-size: 18px; } details.case > summary b { font-weight: 600; }
@@ -38,7 +40,7 @@ table.rows tr.metric div { position: sticky; left: 0; max-width: min(1080px, cal
 @media screen and (max-width: 700px) {
   table.overview, table.overview tbody { display: block; } table.overview thead, table.overview td.none { display: none; }
   table.overview tbody tr { display: flex; flex-wrap: wrap; gap: 4px; padding: 7px 0; border-bottom: 1px solid var(--rule); }
-  table.overview tbody th { display: block; flex: 0 0 100%; padding: 0; }
+  table.overview tbody th { display: block; flex: 0 0 100%; min-width: 0; padding: 0; }
   table.overview td, table.overview td.share { display: block; min-width: 0; border: 0; text-align: left; }
   table.overview td small { display: none; }
   table.overview td::before { content: attr(data-family) " "; color: var(--soft); font-size: 12px; }
@@ -49,7 +51,8 @@ table.rows tr.metric div { position: sticky; left: 0; max-width: min(1080px, cal
   table { font-size: 9pt; } table.overview, table.rows { break-inside: auto; } tr { break-inside: avoid; }
   table.overview th, table.overview td, table.rows th, table.rows td, table.rows th:first-child, table.overview tbody th {
     min-width: 0; padding: 2px 4px; white-space: normal; }
-  table.rows th:first-child, table.overview tbody th { width: 34%; }
+  table.rows th:first-child { width: 30%; } table.overview tbody th { width: 34%; }
+  table.rows { table-layout: fixed; overflow-wrap: anywhere; } table.rows .count { white-space: normal; }
   table.rows tr.metric { break-after: avoid; } table.rows tr.metric div { position: static; max-width: none; }
 }
 )CSS";
