@@ -15,8 +15,8 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
     stability_report) size=1280,1240 ;; # verdict and the first cases
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
-  timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync --hide-scrollbars \
+  FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
+    --disable-dev-shm-usage --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync --hide-scrollbars \
     --force-device-scale-factor=1 --user-data-dir="$scratch/profile" --window-size="$size" \
     --screenshot="$3/$2.png" "file://$(realpath "$1")" >"$scratch/chromium.log" 2>&1 ||
     { cat "$scratch/chromium.log" >&2; return 1; }

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
-#include "apps/common/file_text.h"
 #include "apps/studies/stability/report.h"
 #include "tests/apps/presa/support.h"
 #include "tests/pictures/grey_grid.h"
@@ -32,18 +33,19 @@ std::string folder() {
 
 /// Draws NAME.png anew, by `arguments` of the script of ./dev pictures, and compares it with the committed one.
 ///
-/// The picture of the same program elsewhere differs in glyphs and the edges of shapes: MEAN_AND_MAX_ELSEWHERE.
+/// Bounds: with glyphs of quite another form (a serif font) the page of the cube differs by 0.4 in the mean and 12 at
+/// most; without one curve of its plot by 16 at most; with a line of text less, so that all below it moves, by 4.9 and
+/// 50; the amphora without its friction cones by 1.2 and 29; a still 0.2 s later in the same hold by 0.0 and 2.
 void expectAsCommitted(const std::string& name, const std::string& arguments) {
   const auto drawn = shell(source("tests/pictures/draw.sh") + " " + arguments);
   ASSERT_EQ(drawn.status, 0) << drawn.out << drawn.err;
   const PngPicture now(folder() + "/" + name + ".png"), committed(source("config/pictures/" + name + ".png"));
-  EXPECT_EQ(now.width(), committed.width());
-  EXPECT_EQ(now.height(), committed.height());
   const GreyGrid::Difference difference = GreyGrid(now).from(GreyGrid(committed));
-  ::testing::Test::RecordProperty("mean", std::to_string(difference.mean));
-  std::printf("%s: mean %.2f, max %.1f of 255\n", name.c_str(), difference.mean, difference.max);
-  EXPECT_LE(difference.mean, 2.0) << name << " has changed: ./dev pictures " << name;
-  EXPECT_LE(difference.max, 40.0) << name << " has changed: ./dev pictures " << name;
+  const std::string remedy = name + " has changed: ./dev pictures " + name;
+  EXPECT_EQ(now.width(), committed.width()) << remedy;
+  EXPECT_EQ(now.height(), committed.height()) << remedy;
+  EXPECT_LE(difference.mean, 1) << remedy;
+  EXPECT_LE(difference.max, 15) << remedy;
 }
 
 void expectAsDrawnByThePrograms(const std::string& name) {

@@ -5,14 +5,17 @@ namespace presa::stability {
 // The fills of the grid differ in lightness from the page, not from each other: signs tell them apart without colour.
 const char* const kReportStyle = R"CSS(
 :root { --good-fill: #d8efe5; --warn-fill: #f8e6c4; --bad-fill: #f8d5d1; }
-@media screen and (prefers-color-scheme: dark) { :root { --good-fill: #16392c; --warn-fill: #4a3815; --bad-fill: #55231f; } }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --good-fill: #16392c; --warn-fill: #4a3815; --bad-fill: #55231f; } }
 .sign { font-family: "DejaVu Sans", system-ui, sans-serif; } .count { white-space: nowrap; }
 small { font-size: 12px; color: var(--soft); }
 td.fill small, td.fill, td.fill.warn, td.fill.bad, td.fill.good { color: var(--ink); }
-.fill.good { background: var(--good-fill); } .fill.warn { background: var(--warn-fill); } .fill.bad { background: var(--bad-fill); }
+.fill.good { background: var(--good-fill); } .fill.warn { background: var(--warn-fill); }
+.fill.bad { background: var(--bad-fill); }
 .fill.worse { outline: 2px solid var(--bad); outline-offset: -2px; font-weight: 700; }
 table.overview { border-collapse: separate; border-spacing: 2px 0; }
-table.overview th, table.overview td { padding: 2px 8px; white-space: normal; line-height: 1.35; border-bottom: 1px solid var(--bg); }
+table.overview th, table.overview td { padding: 2px 8px; white-space: normal; line-height: 1.35;
+  border-bottom: 1px solid var(--bg); }
 table.overview tbody tr { position: relative; }
 table.overview tbody th { color: var(--ink); font-weight: 400; min-width: 380px; vertical-align: middle; }
 table.overview th:first-child { padding-left: 0; } table.overview thead th { text-align: left; }
@@ -21,8 +24,8 @@ table.overview td.share, table.overview thead th:last-child { text-align: right;
 table.overview td small { display: block; line-height: 1.2; }
 table.overview a::after { content: ""; position: absolute; inset: 0; }
 table.overview tbody tr:hover th { background: var(--card); }
-.tools button { font: inherit; font-size: 14px; color: var(--ink); background: var(--card); border: 1px solid var(--rule);
-  border-radius: 4px; padding: 3px 12px; margin-right: 6px; cursor: pointer; }
+.tools button { font: inherit; font-size: 14px; color: var(--ink); background: var(--card);
+  border: 1px solid var(--rule); border-radius: 4px; padding: 3px 12px; margin-right: 6px; cursor: pointer; }
 details.case .plot + .scroll { margin-top: 14px; }
 details.case { margin: 0; border-top: 1px solid var(--rule); scroll-margin-top: 8px; }
 details.case > summary { color: var(--ink); padding: 4px 0; } details.case[open] { padding-bottom: 24px; }
@@ -38,7 +41,8 @@ table.rows tr.metric b { color: var(--ink); margin-right: 8px; }
 table.rows tr.metric div { position: sticky; left: 0; max-width: min(1080px, calc(100vw - 40px)); }
 .caption code { overflow-wrap: anywhere; }
 @media screen and (max-width: 700px) {
-  table.overview, table.overview tbody { display: block; } table.overview thead, table.overview td.none { display: none; }
+  table.overview, table.overview tbody { display: block; }
+  table.overview thead, table.overview td.none { display: none; }
   table.overview tbody tr { display: flex; flex-wrap: wrap; gap: 4px; padding: 7px 0; border-bottom: 1px solid var(--rule); }
   table.overview tbody th { display: block; flex: 0 0 100%; min-width: 0; padding: 0; }
   table.overview td, table.overview td.share { display: block; min-width: 0; border: 0; text-align: left; }

@@ -92,22 +92,18 @@ TEST(StabilityPage, AReferenceIsToldOnceWhereAllRowsShareIt) {
   EXPECT_EQ(countOf(section, "</b> bound 1 mm/s"), 1);
 }
 
-/// Whole height, width and visible width of a page in a frame so wide, with all cases as they are or opened [px].
-struct Extent {
-  int height = 0, width = 0, visible = 0;
-};
-
-Extent extentOf(const std::string& page, int width, bool opened) {
+/// What `probe`, an expression of the script language, says of `root` in a browser: the page in a frame `width` px wide
+/// whose address ends with `hash`.
+std::istringstream seenInABrowser(const std::string& page, int width, const std::string& hash,
+                                  const std::string& probe) {
   std::ofstream(scratch("page.html")) << page;
   // the window of a browser has a min width, a frame in it has none
-  std::ofstream(scratch("frame.html")) << "<iframe src=\"page.html\" style=\"border: 0; height: 900px; width: " << width
-                                       << R"(px"></iframe><script>const frame = document.querySelector('iframe');
-    frame.onload = () => {
-      const root = frame.contentDocument.documentElement;
-      for (const one of root.querySelectorAll('details')) one.open ||= )"
-                                       << (opened ? "true" : "false") << R"(;
-      document.body.dataset.probe = [root.scrollHeight, root.scrollWidth, root.clientWidth].join(' ');
-    };</script>)";
+  std::ofstream(scratch("frame.html"))
+      << "<iframe src=\"page.html" + hash + "\" style=\"border: 0; height: 900px; width: " + std::to_string(width) +
+             "px\"></iframe><script>const frame = document.querySelector('iframe'); frame.onload = () => {"
+             "const root = frame.contentDocument.documentElement, cases = [...root.querySelectorAll('details')];"
+             "document.body.dataset.probe = [" +
+             probe + "].join(' '); };</script>";
   const auto seen = shell(
       "timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic "
       "--no-first-run --disable-background-networking --disable-component-update --disable-sync "
@@ -116,9 +112,20 @@ Extent extentOf(const std::string& page, int width, bool opened) {
   EXPECT_EQ(seen.err.find("CONSOLE"), std::string::npos) << seen.err;
   const std::size_t at = seen.out.find("data-probe=\"");
   EXPECT_NE(at, std::string::npos) << seen.err;
+  return std::istringstream(at == std::string::npos ? "" : seen.out.substr(at + 12));
+}
+
+/// Whole height, width and visible width of a page, with all cases as they are or opened [px].
+struct Extent {
+  int height = 0, width = 0, visible = 0;
+};
+
+Extent extentOf(const std::string& page, int width, bool opened) {
+  const std::string open = opened ? "cases.forEach(one => one.open = true), " : "";
+  std::istringstream seen =
+      seenInABrowser(page, width, "", "...(" + open + "[root.scrollHeight, root.scrollWidth, root.clientWidth])");
   Extent extent;
-  if (at != std::string::npos)
-    std::istringstream(seen.out.substr(at + 12)) >> extent.height >> extent.width >> extent.visible;
+  seen >> extent.height >> extent.width >> extent.visible;
   return extent;
 }
 
@@ -143,6 +150,26 @@ TEST(StabilityPage, FitsADeskAndAPhone) {
   }
 }
 
+// A link to a case opens it; two buttons open and close all. The page loads nothing.
+TEST(StabilityPage, ALinkOpensItsCase) {
+  if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
+  const MadeRows made = madeRows(5);
+  std::istringstream seen =
+      seenInABrowser(reportHtml(made.cases, made.rows), 1280, "#case_3",
+                     "cases.filter(one => one.open).map(one => one.id), root.querySelector('.tools').hidden, "
+                     "(root.querySelector('[data-open=all]').click(), cases.filter(one => one.open).length), "
+                     "(root.querySelector('[data-open=none]').click(), cases.filter(one => one.open).length), "
+                     "frame.contentWindow.performance.getEntriesByType('resource').length");
+  std::string open, hidden;
+  int after_all = -1, after_none = -1, requests = -1;
+  seen >> open >> hidden >> after_all >> after_none >> requests;
+  EXPECT_EQ(open, "case_3");
+  EXPECT_EQ(hidden, "false");
+  EXPECT_EQ(after_all, 5);
+  EXPECT_EQ(after_none, 0);
+  EXPECT_EQ(requests, 0);
+}
+
 /// The page with the rules of paper on the screen.
 std::string printed(std::string page) {
   for (const auto& [from, to] : {std::pair{"@media print", "@media all"}, {"@media screen", "@media tty"}}) {
@@ -153,7 +180,7 @@ std::string printed(std::string page) {
   return page;
 }
 
-// On A4 (210 mm less margins of 14 mm: 688 px at 96 a inch) tables wrap and nothing is cut; cases that are closed stay out.
+// On A4 (210 mm less margins of 14 mm: 688 px at 96 an inch) tables wrap and nothing is cut; closed cases stay out.
 TEST(StabilityPage, FitsPaper) {
   if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
   const MadeRows made = madeRows(5);
