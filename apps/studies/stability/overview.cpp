@@ -87,7 +87,7 @@ std::string overviewHtml(const std::vector<Case>& cases, const std::vector<Row>&
   for (std::size_t i = 0; i < present.size(); ++i) {
     if (present[i]) out += "<th scope=\"col\">" + escape(families()[i].title) + "</th>";
   }
-  out += "<th scope=\"col\">Presa: largest share of a bound</th></tr></thead><tbody>\n";
+  out += "<th scope=\"col\">share of bound</th></tr></thead><tbody>\n";
   for (const Case& c : cases) {
     const std::vector<const Row*> own = rowsOfCase(c, rows);
     if (own.empty()) continue;
@@ -96,7 +96,7 @@ std::string overviewHtml(const std::vector<Case>& cases, const std::vector<Row>&
     for (std::size_t i = 0; i < present.size(); ++i) {
       if (present[i]) out += gridCell(i, own);
     }
-    out += "<td class=\"share\" data-family=\"share of a bound\">" + largestShare(own) + "</td></tr>\n";
+    out += "<td class=\"share\" data-family=\"share of bound\">" + largestShare(own) + "</td></tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

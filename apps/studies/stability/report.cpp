@@ -33,10 +33,11 @@ std::string verdictBlock(const std::vector<Row>& rows) {
 std::string legend() {
   return "<p class=\"caption\">A cell counts the stable findings of a case under a family of methods; its sign is that "
          "of the worst: " +
-         signHtml(Verdict::kStable) + " stable, within the bound; " + signHtml(Verdict::kDrift) +
-         " drift, up to ten times the bound; " + signHtml(Verdict::kUnstable) + " unstable, beyond, or no number; " +
-         signHtml(Verdict::kFailed) + " failed, the trial did not end. " + worseSignHtml() +
-         " marks what is worse than expected.</p>\n";
+         signHtml(Verdict::kStable) + "&nbsp;stable, within the bound; " + signHtml(Verdict::kDrift) +
+         "&nbsp;drift, up to ten times the bound; " + signHtml(Verdict::kUnstable) +
+         "&nbsp;unstable, beyond, or no number; " + signHtml(Verdict::kFailed) +
+         "&nbsp;failed, the trial did not end. " + worseSignHtml() +
+         "&nbsp;marks what is worse than expected. Share of bound: the largest that Presa's results reach.</p>\n";
 }
 
 /// A case, closed unless a verdict is worse than expected; empty without rows.

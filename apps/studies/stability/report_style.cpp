@@ -7,6 +7,7 @@ const char* const kReportStyle = R"CSS(
 :root { --good-fill: #d8efe5; --warn-fill: #f8e6c4; --bad-fill: #f8d5d1; }
 @media screen and (prefers-color-scheme: dark) {
   :root { --good-fill: #16392c; --warn-fill: #4a3815; --bad-fill: #55231f; } }
+@media screen { main { max-width: 1240px; } }
 .sign { font-family: "DejaVu Sans", system-ui, sans-serif; } .count { white-space: nowrap; }
 small { font-size: 12px; color: var(--soft); }
 td.fill small, td.fill, td.fill.warn, td.fill.bad, td.fill.good { color: var(--ink); }
@@ -17,11 +18,11 @@ table.overview { border-collapse: separate; border-spacing: 2px 0; }
 table.overview th, table.overview td { padding: 2px 8px; white-space: normal; line-height: 1.35;
   border-bottom: 1px solid var(--bg); }
 table.overview tbody tr { position: relative; }
-table.overview tbody th { color: var(--ink); font-weight: 400; min-width: 380px; vertical-align: middle; }
+table.overview tbody th { color: var(--ink); font-weight: 400; min-width: 400px; vertical-align: middle; }
 table.overview th:first-child { padding-left: 0; } table.overview thead th { text-align: left; }
 table.overview td { text-align: left; min-width: 78px; }
 table.overview td.share, table.overview thead th:last-child { text-align: right; min-width: 76px; }
-table.overview td small { display: block; line-height: 1.2; }
+table.overview td small { display: block; line-height: 1.2; min-width: 120px; }
 table.overview a::after { content: ""; position: absolute; inset: 0; }
 table.overview tbody tr:hover th { background: var(--card); }
 .tools button { font: inherit; font-size: 14px; color: var(--ink); background: var(--card);
@@ -38,7 +39,7 @@ table.rows td { white-space: normal; vertical-align: top; min-width: 112px; } ta
 table.rows td.none { color: var(--soft); }
 table.rows tr.metric th { padding-top: 14px; border-bottom: 2px solid var(--rule); color: var(--soft); }
 table.rows tr.metric b { color: var(--ink); margin-right: 8px; }
-table.rows tr.metric div { position: sticky; left: 0; max-width: min(1080px, calc(100vw - 40px)); }
+table.rows tr.metric div { position: sticky; left: 0; max-width: min(1200px, calc(100vw - 40px)); }
 .caption code { overflow-wrap: anywhere; }
 @media screen and (max-width: 700px) {
   table.overview, table.overview tbody { display: block; }
@@ -55,6 +56,7 @@ table.rows tr.metric div { position: sticky; left: 0; max-width: min(1080px, cal
   table { font-size: 9pt; } table.overview, table.rows { break-inside: auto; } tr { break-inside: avoid; }
   table.overview th, table.overview td, table.rows th, table.rows td, table.rows th:first-child, table.overview tbody th {
     min-width: 0; padding: 2px 4px; white-space: normal; }
+  table.overview td small { min-width: 0; }
   table.rows th:first-child { width: 30%; } table.overview tbody th { width: 34%; }
   table.rows { table-layout: fixed; overflow-wrap: anywhere; } table.rows .count { white-space: normal; }
   table.rows tr.metric { break-after: avoid; } table.rows tr.metric div { position: static; max-width: none; }
