@@ -5,6 +5,11 @@
 #include "apps/common/report/svg_plot.h"
 
 namespace presa::svg {
+namespace {
+
+constexpr int kMaxDecimals = 5;  // more digits than that do not fit beside an axis
+
+}  // namespace
 
 std::vector<double> niceTicks(double low, double high, int target) {
   if (!(high > low) || !std::isfinite(high - low)) return {low};
@@ -20,9 +25,17 @@ std::vector<double> niceTicks(double low, double high, int target) {
 }
 
 std::string tickText(double value, double step) {
-  const int decimals = step > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9) : 3;
+  const int decimals = step > 0 ? std::max(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0) : 3;
+  const bool is_zero = std::abs(value) < step * 1e-6;
   char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value) < step * 1e-6 ? 0.0 : value);
+  if (decimals <= kMaxDecimals) {
+    std::snprintf(text, sizeof text, "%.*f", decimals, is_zero ? 0.0 : value);
+  } else if (is_zero) {
+    return "0";
+  } else {
+    const int digits = decimals + static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+    std::snprintf(text, sizeof text, "%.*e", std::clamp(digits, 0, 9), value);
+  }
   return text;
 }
 
