@@ -34,7 +34,7 @@ install(FILES config/cmake/PresaConfig.cmake config/cmake/PresaPlugin.cmake ${PR
   DESTINATION lib/cmake/Presa)
 
 install(DIRECTORY config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple config/textures
-  DESTINATION share/presa/config PATTERN "*.py" EXCLUDE)
+  DESTINATION share/presa/config PATTERN "*.py" EXCLUDE PATTERN "*.tsv" EXCLUDE)
 install(DIRECTORY experiments/ DESTINATION share/presa/experiments FILES_MATCHING
   PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.obj" PATTERN "README.md")
 install(FILES README.md CHANGELOG.md LICENSE docs/plugins.md DESTINATION share/doc/presa)

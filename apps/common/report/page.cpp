@@ -84,7 +84,7 @@ svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
   padding: 6px 10px; font-size: 13px; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .readout div { display: flex; justify-content: space-between; gap: 18px; }
 .readout span { color: var(--soft); }
-@media (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; } }
+@media screen and (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; } }
 @media print {
   @page { margin: 14mm; } body { font-size: 11pt; } main { padding: 0; max-width: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
@@ -145,13 +145,13 @@ for (const point of document.querySelectorAll('.plot [data-name]')) {
 
 }  // namespace
 
-std::string head(const std::string& title) {
+std::string head(const std::string& title, const std::string& style) {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          // the browser then guarantees that the page sends no request
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
          "script-src 'unsafe-inline'; img-src data:\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         svg::escape(title) + "</title>\n<style>" + kStyle + "</style></head>\n<body><main>\n";
+         svg::escape(title) + "</title>\n<style>" + kStyle + style + "</style></head>\n<body><main>\n";
 }
 
 const char* style() { return kStyle; }

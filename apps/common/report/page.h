@@ -3,8 +3,8 @@
 
 namespace presa::page {
 
-/// Beginning and end of a self-contained page.
-std::string head(const std::string& title);
+/// Beginning and end of a self-contained page. `style`: rules of this page, in addition to those of all pages.
+std::string head(const std::string& title, const std::string& style = {});
 std::string tail();
 /// The style sheet of every page.
 const char* style();

@@ -5,6 +5,11 @@
 #include "apps/common/report/svg_plot.h"
 
 namespace presa::svg {
+namespace {
+
+constexpr int kMaxDecimals = 5;  // more digits than that do not fit beside an axis
+
+}  // namespace
 
 std::vector<double> niceTicks(double low, double high, int target) {
   if (!(high > low) || !std::isfinite(high - low)) return {low};
@@ -20,8 +25,14 @@ std::vector<double> niceTicks(double low, double high, int target) {
 }
 
 std::string tickText(double value, double step) {
-  const int decimals = step > 0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9) : 3;
-  return fixed(std::abs(value) < step * 1e-6 ? 0.0 : value, decimals);
+  const int decimals = step > 0 ? std::max(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0) : 3;
+  const bool is_zero = std::abs(value) < step * 1e-6;
+  if (decimals <= kMaxDecimals) return fixed(is_zero ? 0.0 : value, decimals);
+  if (is_zero) return "0";
+  const int digits = decimals + static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*e", std::clamp(digits, 0, 9), value);
+  return text;
 }
 
 std::vector<Point> decimate(const std::vector<Point>& line, double x_low, double x_high, int columns) {

@@ -116,7 +116,7 @@ std::string render(const WorkFigure& figure);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `target` of them.
 std::vector<double> niceTicks(double low, double high, int target);
-/// The number with as many decimals as ticks `step` apart need.
+/// The number with as many decimals as ticks `step` apart need; beyond five as a power of ten, "5.8e-06".
 std::string tickText(double value, double step);
 /// Thins a polyline for a plot `columns` pixels wide to the first, lowest, highest and last point of every column.
 /// Points are kept or dropped, never moved; no extreme is lost.

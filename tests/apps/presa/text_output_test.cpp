@@ -51,6 +51,10 @@ TEST(Plot, TicksAreRoundAndInside) {
   EXPECT_EQ(svg::tickText(ticks.front(), 0.02), "0.04");
   EXPECT_EQ(svg::tickText(ticks.back(), 0.02), "0.14");
   EXPECT_EQ(svg::tickText(-1e-18, 0.5), "0.0");
+  // beside an axis is room for nine characters
+  EXPECT_EQ(svg::tickText(5.8e-6, 2e-7), "5.8e-06");
+  EXPECT_EQ(svg::tickText(-6e-6, 2e-7), "-6.0e-06");
+  EXPECT_EQ(svg::tickText(0, 2e-7), "0");
   EXPECT_EQ(svg::niceTicks(2, 2, 5), std::vector<double>{2});
 }
 

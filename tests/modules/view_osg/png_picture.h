@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <osg/Image>
-#include <osgDB/ReadFile>
-#include <stdexcept>
 #include <string>
 
 #include "modules/view_osg/view_module.h"
 #include "tests/modules/view_osg/pinch_world.h"
+#include "tests/support/png_picture.h"
 
 namespace presa::view_test {
 
@@ -21,26 +19,8 @@ inline std::string tempFile(const std::string& name) {
   return file;
 }
 
-struct Color {
-  int r, g, b;
-};
-
-class PngPicture {
- public:
-  explicit PngPicture(const std::string& file) : image_(osgDB::readRefImageFile(file)) {
-    if (!image_) throw std::runtime_error("no picture " + file);
-  }
-  int width() const { return image_->s(); }
-  int height() const { return image_->t(); }
-  /// x from the left, y from the top.
-  Color at(int x, int y) const {
-    const unsigned char* p = image_->data(x, image_->t() - 1 - y);
-    return {p[0], p[1], p[2]};
-  }
-
- private:
-  osg::ref_ptr<osg::Image> image_;
-};
+using test::Color;
+using test::PngPicture;
 
 /// Runs an off-screen view for one tick and returns the outcome of the picture. `screen`: what a participant sees; null:
 /// the picture is nobody's.
