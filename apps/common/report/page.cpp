@@ -55,7 +55,7 @@ img { max-width: 100%; border-radius: 4px; display: block; }
 details { margin: 8px 0; } summary { cursor: pointer; color: var(--soft); font-size: 14px; }
 details.part { margin: 0; border-top: 1px solid var(--rule); padding: 10px 0; } details.part:last-of-type { border-bottom: 1px solid var(--rule); }
 details.part > summary { color: var(--ink); font-size: 16px; font-weight: 600; } h2 + details.part { margin-top: 4px; }
-figure { margin: 0; } figure > h3 { margin-top: 12px; }
+figure { margin: 0; } figure + .verdict { margin-top: 16px; } figure > h3 { margin-top: 12px; }
 svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink); }
 svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
 svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
@@ -87,7 +87,7 @@ svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
 .readout div { display: flex; justify-content: space-between; gap: 18px; }
 .readout span { color: var(--soft); }
 @media (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; }
-  .pair figure svg text { font-size: 14px; } .verdict b { overflow-wrap: anywhere; } }
+  .pair figure svg text { font-size: 13px; } .verdict b { overflow-wrap: anywhere; } }
 @media print {
   @page { margin: 14mm; } body { font-size: 11pt; } main { padding: 0; max-width: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -29,7 +29,7 @@ std::string symbolPath(double x, double y, double r, int shape) {
 
 double textWidth(const std::string& text) {
   const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  return 6.6 *
+  return 7 *
          static_cast<double>(text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), follows)));
 }
 

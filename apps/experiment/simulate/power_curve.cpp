@@ -5,6 +5,7 @@
 
 #include "apps/common/report/svg_facets.h"
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_symbols.h"
 #include "apps/common/terminal/text.h"
 
 namespace presa::experiment {
@@ -14,17 +15,26 @@ using terminal::format;
 
 constexpr std::size_t kColors = 6;  // of svg_facets.h, each with its own symbol
 
+/// The symbol of a drawn curve: the list of the tests is the legend of the figure.
+std::string symbolOf(std::size_t curve) {
+  if (curve >= kColors) return {};
+  const int color = static_cast<int>(curve);
+  return "<svg width=\"14\" height=\"12\" aria-hidden=\"true\"><path class=\"symbol " + svg::colorClass(color) +
+         "\" d=\"" + svg::symbolPath(6, 6, 4, color) + "\"/></svg> ";
+}
+
 std::string verdict(const std::vector<PowerCurve>& curves, int subjects, double wanted) {
   std::size_t good = 0;
   std::string lines;
-  for (const PowerCurve& curve : curves) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const PowerCurve& curve = curves[i];
     const PowerCurve::Point& last = curve.points.back();
     const int enough = curve.reached(wanted);
     good += enough > 0 ? 1 : 0;
-    lines += "<li>" + svg::escape(curve.test) +
+    lines += "<li>" + symbolOf(i) + svg::escape(curve.test) +
              format(": power %.2f (%.2f to %.2f) with %d subjects", last.power, last.low, last.high, last.subjects) +
              (enough == 0         ? std::string("; that is too few")
-              : enough < subjects ? format("; %d are enough", enough)
+              : enough < subjects ? format("; %d %s enough", enough, enough == 1 ? "is" : "are")
                                   : std::string()) +
              ".</li>\n";
   }
@@ -74,15 +84,16 @@ std::string powerFigure(const std::vector<PowerCurve>& curves, int subjects, dou
   };
   for (std::size_t i = 0; i < curves.size() && i < kColors; ++i) {
     svg::Layer layer{Kind::kJoined, static_cast<int>(i)};
-    layer.shift = 3 * static_cast<double>(i);
     for (const PowerCurve::Point& point : curves[i].points) {
       svg::FacetPoint at{static_cast<double>(point.subjects), point.power, point.low, point.high};
       at.label = curves[i].test + format("\n%d subjects: power %.2f\n95 %% interval %.2f to %.2f", point.subjects,
                                          point.power, point.low, point.high);
       layer.points.push_back(at);
     }
+    svg::Layer band{Kind::kArea, static_cast<int>(i), false, layer.points};
+    for (svg::FacetPoint& point : layer.points) point.low = point.high = svg::FacetPoint::kNone;
+    facet.layers.push_back(band);
     facet.layers.push_back(layer);
-    figure.legend.push_back({curves[i].test, Kind::kJoined, static_cast<int>(i)});
   }
   line(0, wanted, subjects, wanted, format("wanted: %.2g", wanted));
   line(subjects, 0, subjects, 1, format("planned: %d", subjects));
@@ -92,7 +103,7 @@ std::string powerFigure(const std::vector<PowerCurve>& curves, int subjects, dou
     left_out = format(" Not drawn: %zu more tests, see power_curve.csv.", curves.size() - kColors);
   return verdict(curves, subjects, wanted) + "<figure><h2>Power over the number of subjects</h2>\n" +
          svg::render(figure) +
-         "<figcaption class=\"caption\">Each point analyses the first subjects of every study. Bars: 95 % interval "
+         "<figcaption class=\"caption\">Each point analyses the first subjects of every study. Bands: 95 % interval "
          "from "
          "the number of studies." +
          left_out + "</figcaption></figure>\n";

@@ -38,8 +38,10 @@ TEST(PowerCurve, ThePageSaysFirstWhetherTheSubjectsAreEnough) {
   EXPECT_THAT(html, HasSubstr("<b>12 subjects give a power of 0.8 in 1 of 2 tests</b>"));
   EXPECT_THAT(html, HasSubstr("grip: power 1.00 (0.72 to 1.00) with 12 subjects; 6 are enough."));
   EXPECT_THAT(html, HasSubstr("slip: power 0.40 (0.17 to 0.69) with 12 subjects; that is too few."));
-  EXPECT_LT(html.find("<b>"), html.find("<svg"));
+  EXPECT_LT(html.find("<b>"), html.find("class=\"plot"));
   EXPECT_THAT(html, HasSubstr("planned: 12"));
+  EXPECT_THAT(powerFigure({{"one", {powerPoint(1, 10, 10), powerPoint(2, 10, 10)}}}, 2, 0.8),
+              HasSubstr("; 1 is enough."));
   EXPECT_THAT(powerCurveCsv(curves), HasSubstr("12,\"slip\",0.4,"));
   EXPECT_THAT(powerFigure({}, 12, 0.8), HasSubstr("has no test"));
 }
