@@ -51,6 +51,8 @@ void checkFrames(const xml::Element& root, Diagnostics& diagnostics);
 std::vector<Frame> readFrames(const xml::Element& root);
 /// Writes defaults, implied materials and absolute paths into a document without errors.
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory);
+/// Makes the paths of the rig, of meshes and of plug-ins' files absolute.
+void resolveFiles(const xml::Element& root, const std::string& directory);
 
 /// The elements that plug-ins bring, in the scene itself and in its bodies.
 std::vector<PluginElement> readPluginElements(const xml::Element& root);

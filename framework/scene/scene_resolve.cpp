@@ -53,12 +53,23 @@ void resolveWatchdogs(const Element& root, const std::vector<bool>& set) {
 
 }  // namespace
 
+void resolveFiles(const Element& scene, const std::string& directory) {
+  Element root = scene;
+  if (root.hasAttribute("rig")) root.setAttribute("rig", resolvePath(root.attribute("rig"), directory));
+  for (const Element& body : root.children("body")) {
+    for (const char* role : {"visual", "haptic", "physics"}) {
+      for (const Element& geometry : body.children(role)) resolveMesh(geometry, directory);
+    }
+  }
+  resolvePluginFiles(root, directory);
+}
+
 void resolveScene(xml::Document& document, const xml::Schema& schema, const std::string& directory) {
   const std::vector<bool> watchdogs_set = watchdogsSet(document.root());
   document.writeDefaults(schema);
   Element root = document.root();
   resolveWatchdogs(root, watchdogs_set);
-  if (root.hasAttribute("rig")) root.setAttribute("rig", resolvePath(root.attribute("rig"), directory));
+  resolveFiles(root, directory);
   const std::vector<Element> materials = materialElements(root);
   for (const Element& material : materials) {
     for (const Element& friction : material.children("friction")) resolveFriction(friction);
@@ -67,13 +78,9 @@ void resolveScene(xml::Document& document, const xml::Schema& schema, const std:
     if (!body.hasAttribute("material")) body.setAttribute("material", materials[0].attribute("name"), body.where());
     resolveOrientation(body);
     for (const char* role : {"visual", "haptic", "physics"}) {
-      for (const Element& geometry : body.children(role)) {
-        resolveOrientation(geometry);
-        resolveMesh(geometry, directory);
-      }
+      for (const Element& geometry : body.children(role)) resolveOrientation(geometry);
     }
   }
-  resolvePluginFiles(root, directory);
   for (const Element& assembly : root.children("assembly")) {
     for (const Element& goal : assembly.children("goal")) resolveOrientation(goal);
   }

@@ -21,4 +21,10 @@ inline std::string table(const std::vector<std::string>& head, const std::string
          "</tbody></table></div>\n";
 }
 
+/// A section that the reader opens; `title` is already escaped. Empty without content.
+inline std::string folded(const std::string& title, const std::string& content) {
+  if (content.empty()) return {};
+  return "<details class=\"part\"><summary>" + title + "</summary>\n" + content + "</details>\n";
+}
+
 }  // namespace presa::html

@@ -27,7 +27,7 @@ p { margin: 6px 0; }
 .lead { color: var(--soft); margin: 0 0 18px; }
 .verdict { background: var(--card); border-left: 5px solid var(--neutral); border-radius: 4px; padding: 14px 18px; }
 .verdict.good { border-color: var(--good); } .verdict.bad { border-color: var(--bad); }
-.verdict b { font-size: 18px; } .verdict + .verdict { margin-top: 12px; }
+.verdict b { font-size: 18px; } .verdict + .verdict { margin-top: 12px; } h1 + .verdict { margin-top: 14px; }
 .verdict.good b { color: var(--good); } .verdict.bad b { color: var(--bad); }
 .tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(165px, 1fr)); gap: 10px; margin: 14px 0; }
 .tile { background: var(--card); border-radius: 4px; padding: 10px 14px; }
@@ -54,6 +54,9 @@ img { max-width: 100%; border-radius: 4px; display: block; }
 .plot { position: relative; overflow-x: auto; }
 .plot > svg { width: 100%; height: auto; display: block; } .plot.single { max-width: 800px; }
 details { margin: 8px 0; } summary { cursor: pointer; color: var(--soft); font-size: 14px; }
+details.part { margin: 0; border-top: 1px solid var(--rule); padding: 10px 0; } details.part:last-of-type { border-bottom: 1px solid var(--rule); }
+details.part > summary { color: var(--ink); font-size: 16px; font-weight: 600; } h2 + details.part { margin-top: 4px; }
+figure { margin: 0; } figure + .verdict { margin-top: 16px; } figure > h3 { margin-top: 12px; }
 svg text { font: 12px system-ui, "Liberation Sans", sans-serif; fill: var(--ink); }
 svg .tick { fill: var(--soft); font-variant-numeric: tabular-nums; } svg .ytick { text-anchor: end; } svg .xtick, svg .phase { text-anchor: middle; }
 svg .phase { fill: var(--soft); font-weight: 600; } svg .panel-title { font-weight: 600; font-size: 13px; }
@@ -74,6 +77,8 @@ svg .mark { fill: none; stroke: var(--bad); stroke-width: 2; }
 svg .point { fill: var(--tangential); stroke: var(--bg); stroke-width: 1; cursor: default; } svg .point.front { fill: var(--force); }
 svg .point.usual { fill: var(--object); stroke: var(--ink); stroke-width: 1.5; } svg .point.empty { fill: var(--bg); stroke: var(--tangential); stroke-width: 1.5; }
 svg .cross { stroke: var(--bad); stroke-width: 2; fill: none; } svg .whisker { stroke: var(--tangential); }
+svg .work { stroke-width: 1.3; fill: var(--fill); cursor: default; } svg .work.front { stroke: var(--ink); }
+svg .work.other { fill-opacity: .35; } svg .work.empty { fill: var(--bg); fill-opacity: 1; } svg .leader { stroke: var(--soft); stroke-width: .8; }
 svg .pareto { fill: none; stroke: var(--force); stroke-width: 1.5; } svg .floor { fill: var(--band0); } svg .known { fill: var(--limit); }
 svg .s0 { stroke: var(--s0); --fill: var(--s0); } svg .s1 { stroke: var(--s1); --fill: var(--s1); } svg .s2 { stroke: var(--s2); --fill: var(--s2); }
 svg .s3 { stroke: var(--s3); --fill: var(--s3); } svg .s4 { stroke: var(--s4); --fill: var(--s4); } svg .s5 { stroke: var(--s5); --fill: var(--s5); }
@@ -84,11 +89,13 @@ svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }
   padding: 6px 10px; font-size: 13px; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .readout div { display: flex; justify-content: space-between; gap: 18px; }
 .readout span { color: var(--soft); }
-@media screen and (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; } }
+@media screen and (max-width: 700px) { .plot > svg { min-width: 640px; } .pair .plot > svg { min-width: 0; }
+  .pair figure svg text { font-size: 13px; } .verdict b { overflow-wrap: anywhere; } }
 @media print {
   @page { margin: 14mm; } body { font-size: 11pt; } main { padding: 0; max-width: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .plot, .tiles, .verdict, table, figure, h3 + .plot { break-inside: avoid; } h2, h3 { break-after: avoid; } .readout, .save { display: none; }
+  .plot, .tiles, .verdict, tr, pre, img, figure { break-inside: avoid; } thead { display: table-header-group; }
+  h1, h2, h3, .lead, summary, h2 + .caption, h3 + .caption { break-after: avoid; } p { orphans: 3; widows: 3; } .readout, .save { display: none; }
   .pair { grid-template-columns: 1fr 1fr; } .plot, .scroll { overflow: visible; } }
 )CSS";
 

@@ -6,6 +6,7 @@
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
+#include "apps/common/report/svg_symbols.h"
 
 namespace presa::svg {
 namespace {
@@ -14,8 +15,6 @@ using Kind = Layer::Kind;
 
 constexpr double kLeft = 66, kRight = 14, kLegend = 26, kHead = 20, kAxis = 44, kGap = 14;  // margins [px]
 constexpr double kCharacter = 6.6;  // mean width of the labels' font
-
-std::string colorOf(int color) { return color < 0 ? "ink" : "s" + std::to_string(color % 6); }
 
 struct Range {
   double low = INFINITY, high = -INFINITY;
@@ -76,31 +75,11 @@ Axes axesOf(const FacetFigure& figure, double width, double height) {
   return axes;
 }
 
-/// Circle, square, triangle, diamond, down triangle, cross: distinguishable without colour.
-std::string symbolPath(double x, double y, double r, int shape) {
-  const auto at = [&](double dx, double dy) { return px(x + dx) + " " + px(y + dy); };
-  switch (shape % 6) {
-    case 0:
-      return "M" + at(-r, 0) + "a" + px(r) + " " + px(r) + " 0 1 0 " + px(2 * r) + " 0a" + px(r) + " " + px(r) +
-             " 0 1 0 " + px(-2 * r) + " 0z";
-    case 1:
-      return "M" + at(-r, -r) + "L" + at(r, -r) + "L" + at(r, r) + "L" + at(-r, r) + "z";
-    case 2:
-      return "M" + at(0, -1.2 * r) + "L" + at(1.1 * r, 0.9 * r) + "L" + at(-1.1 * r, 0.9 * r) + "z";
-    case 3:
-      return "M" + at(0, -1.3 * r) + "L" + at(1.3 * r, 0) + "L" + at(0, 1.3 * r) + "L" + at(-1.3 * r, 0) + "z";
-    case 4:
-      return "M" + at(0, 1.2 * r) + "L" + at(1.1 * r, -0.9 * r) + "L" + at(-1.1 * r, -0.9 * r) + "z";
-    default:
-      return "M" + at(-r, -r) + "L" + at(r, r) + "M" + at(-r, r) + "L" + at(r, -r);
-  }
-}
-
 std::string symbolAt(double x, double y, double size, int color, const std::string& label) {
   const std::string data =
       label.empty() ? "/>\n" : " data-name=\"" + escape(label) + "\"><title>" + escape(label) + "</title></path>\n";
-  return "<path class=\"symbol " + colorOf(color) + "\" d=\"" + symbolPath(x, y, 4 * size, std::max(color, 0)) + "\"" +
-         data;
+  return "<path class=\"symbol " + colorClass(color) + "\" d=\"" + symbolPath(x, y, 4 * size, std::max(color, 0)) +
+         "\"" + data;
 }
 
 std::string errorBars(const FacetPoint& point, const Scale& x, const Scale& y) {
@@ -130,7 +109,7 @@ std::string barsOf(const Layer& layer, const Scale& x, const Scale& y) {
   const double width = 0.8 * std::abs(x(1) - x(0));
   for (const FacetPoint& point : layer.points) {
     const double top = std::min(y(point.y), y(0)), height = std::abs(y(point.y) - y(0));
-    out += "<rect class=\"bar " + colorOf(layer.color) + "\" x=\"" + px(x(point.x) - 0.5 * width) + "\" y=\"" +
+    out += "<rect class=\"bar " + colorClass(layer.color) + "\" x=\"" + px(x(point.x) - 0.5 * width) + "\" y=\"" +
            px(top) + "\" width=\"" + px(width) + "\" height=\"" + px(height) + "\" data-name=\"" + escape(point.label) +
            "\"><title>" + escape(point.label) + "</title></rect>\n" + errorBars(point, x, y);
   }
@@ -144,7 +123,7 @@ std::string areaOf(const Layer& layer, const Scale& x, const Scale& y) {
   for (const FacetPoint& p : layer.points) sideways(p) ? add(p.left, p.y) : add(p.x, p.high);
   for (auto p = layer.points.rbegin(); p != layer.points.rend(); ++p)
     sideways(*p) ? add(p->right, p->y) : add(p->x, p->low);
-  return d.empty() ? d : "<path class=\"area " + colorOf(layer.color) + "\" d=\"" + d + "z\"/>\n";
+  return d.empty() ? d : "<path class=\"area " + colorClass(layer.color) + "\" d=\"" + d + "z\"/>\n";
 }
 
 std::string layerOf(const Layer& layer, const Scale& x, const Scale& y) {
@@ -152,7 +131,7 @@ std::string layerOf(const Layer& layer, const Scale& x, const Scale& y) {
   if (layer.kind == Kind::kArea) return areaOf(layer, x, y);
   std::string out;
   if (layer.kind != Kind::kSymbols)
-    out += "<path class=\"line " + colorOf(layer.color) + (layer.dashed ? " dashed" : "") + "\" d=\"" +
+    out += "<path class=\"line " + colorClass(layer.color) + (layer.dashed ? " dashed" : "") + "\" d=\"" +
            polyline(layer.points, x, y) + "\"/>\n";
   if (layer.kind == Kind::kLine) return out;
   for (const FacetPoint& point : layer.points)
@@ -167,10 +146,10 @@ std::string legendOf(const FacetFigure& figure) {
   for (const FacetFigure::Entry& entry : figure.legend) {
     const double y = 12;
     if (entry.kind == Kind::kBars || entry.kind == Kind::kArea)
-      out += "<rect class=\"" + std::string(entry.kind == Kind::kBars ? "bar " : "area ") + colorOf(entry.color) +
+      out += "<rect class=\"" + std::string(entry.kind == Kind::kBars ? "bar " : "area ") + colorClass(entry.color) +
              "\" x=\"" + px(at) + "\" y=\"" + px(y - 6) + "\" width=\"16\" height=\"12\"/>\n";
     if (entry.kind == Kind::kLine || entry.kind == Kind::kJoined)
-      out += "<path class=\"line " + colorOf(entry.color) + (entry.dashed ? " dashed" : "") + "\" d=\"M" + px(at) +
+      out += "<path class=\"line " + colorClass(entry.color) + (entry.dashed ? " dashed" : "") + "\" d=\"M" + px(at) +
              " " + px(y) + "h18\"/>\n";
     if (entry.kind == Kind::kSymbols || entry.kind == Kind::kJoined) out += symbolAt(at + 9, y, 1, entry.color, "");
     out += textAt(at + 24, y + 4, "", escape(entry.label));

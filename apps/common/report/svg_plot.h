@@ -93,6 +93,8 @@ struct WorkPoint {
   std::string label;             ///< shown under the pointer
   std::string css_class;         ///< "usual", "front", "other"
   bool failed = false;           ///< a cross on the top edge
+  int color = -1, shape = 0;     ///< instead of the circle of the class: s0 to s5, and svg::symbolPath
+  std::string tag{};             ///< direct label; empty: none
 };
 /// Error over cost, both logarithmic.
 struct WorkFigure {
@@ -104,6 +106,11 @@ struct WorkFigure {
   std::vector<Level> y_levels{};  ///< just-noticeable differences
   double floor = 0;               ///< error of the reference itself; 0: none
   std::string legend{};           ///< line of text inside the plot, at its top
+  struct Entry {
+    std::string label;
+    int color = -1, shape = 0;
+  };
+  std::vector<Entry> entries{};  ///< what the colours and shapes mean, below the plot
 };
 
 /// The panels over one time axis, with bands, events, a label at the end of each curve and the data for the page's

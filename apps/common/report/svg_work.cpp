@@ -4,6 +4,7 @@
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
+#include "apps/common/report/svg_symbols.h"
 
 namespace presa::svg {
 namespace {
@@ -41,13 +42,14 @@ std::string powerText(int exponent) {
 std::vector<std::pair<double, std::string>> ticks(const LogScale& scale) {
   std::vector<std::pair<double, std::string>> found;
   const double low = scale.scale.data_low, high = scale.scale.data_high;
-  const bool fine = high - low < 2.5;
+  const bool fine = high - low < 2.5, finest = high - low < 1.1;
   for (int e = static_cast<int>(std::floor(low)); e <= static_cast<int>(std::ceil(high)); ++e) {
-    for (const double lead : {1.0, 2.0, 5.0}) {
+    for (const double lead : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0}) {
       const double at = e + std::log10(lead);
-      if (at < low || at > high || (lead > 1 && !fine)) continue;
+      const bool shown = lead == 1 || (fine && (lead == 2 || lead == 5)) || finest;
+      if (at < low || at > high || !shown) continue;
       const double value = std::pow(10.0, at);
-      found.emplace_back(value, lead == 1 ? powerText(e) : number(value, e >= -3 && e <= 4 ? 12 : 1));
+      found.emplace_back(value, lead == 1 ? powerText(e) : number(value, e >= -3 && e <= 4 ? 12 : 2));
     }
   }
   return found;
@@ -84,6 +86,10 @@ std::string levels(const WorkFigure& figure, const LogScale& x, const LogScale& 
   return out;
 }
 
+double heightOf(const WorkPoint& point, const LogScale& y) {
+  return point.failed ? kTop + 8 : point.at.y > 0 ? std::min(y(point.at.y), kBottom) : kBottom;
+}
+
 std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y, bool below_floor) {
   const double at = x(point.at.x);
   std::string data = " data-name=\"" + escape(point.label) + "\"><title>" + escape(point.label) + "</title>";
@@ -92,10 +98,14 @@ std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y,
     return "<path class=\"cross\" d=\"M" + px(at - 5) + " " + px(top - 5) + "l10 10m0 -10l-10 10\"" + data +
            "</path>\n";
   }
-  const double height = point.at.y > 0 ? std::min(y(point.at.y), kBottom) : kBottom;
+  const double height = heightOf(point, y);
   std::string out;
   if (point.x_high > point.x_low && point.x_low > 0)
     out += lineFromTo(x(point.x_low), height, x(point.x_high), height, "whisker");
+  if (point.color >= 0 && point.css_class != "usual")
+    return out + "<path class=\"work " + colorClass(point.color) + " " + point.css_class +
+           (below_floor ? " empty" : "") + "\" d=\"" + symbolPath(at, height, 5, point.shape) + "\"" + data +
+           "</path>\n";
   const std::string css = "point " + point.css_class + (below_floor ? " empty" : "");
   if (point.css_class == "usual") {
     out +=
@@ -115,6 +125,41 @@ Csv csvOf(const WorkFigure& figure) {
   return csv;
 }
 
+/// Direct labels: first the default's and those of the front.
+std::string tags(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
+  std::vector<PointLabel> labels;
+  std::vector<Box> taken;
+  for (const bool needed : {true, false}) {
+    for (const WorkPoint& point : figure.points) {
+      const Point at{x(point.at.x), heightOf(point, y)};
+      if (needed) taken.push_back({at.x - 6, at.y - 6, at.x + 6, at.y + 6});
+      if (!point.tag.empty() && (point.css_class != "other") == needed) labels.push_back({at, point.tag, needed});
+    }
+  }
+  for (const Level& level : figure.y_levels)
+    taken.push_back({kLeft, y(level.value) - 17, kLeft + 8 + textWidth(level.label), y(level.value)});
+  return pointLabels(labels, {kLeft + 2, kTop, kRight + 8, kBottom - 2}, taken);
+}
+
+/// Rows of symbols and their meaning; `bottom` becomes the height of the figure.
+std::string legendBelow(const WorkFigure& figure, double& bottom) {
+  std::string out;
+  double at = kLeft, line = kHeight + 12;
+  for (const WorkFigure::Entry& entry : figure.entries) {
+    const double width = 30 + textWidth(entry.label);
+    if (at > kLeft && at + width > kRight) {
+      at = kLeft;
+      line += 19;
+    }
+    out += "<path class=\"work front " + colorClass(entry.color) + "\" d=\"" +
+           symbolPath(at + 5, line - 4, 5, entry.shape) + "\"/>\n" +
+           textAt(at + 15, line, "legend", escape(entry.label));
+    at += width;
+    bottom = line + 10;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string render(const WorkFigure& figure) {
@@ -129,7 +174,9 @@ std::string render(const WorkFigure& figure) {
   if (!(y_span.high > 0)) y_span = {0.1, 1};
   const LogScale x = x_span.over(kLeft, kRight), y = y_span.over(kBottom, kTop + 16);
 
-  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"" +
+  double bottom = kHeight;
+  const std::string below = legendBelow(figure, bottom);
+  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(bottom) + "\" role=\"img\" aria-label=\"" +
                     escape(figure.title) + "\">\n" + levels(figure, x, y) + axes(figure, x, y);
   if (!figure.legend.empty()) out += textAt(kLeft + 10, kTop + 14, "legend", escape(figure.legend));
   std::string path;
@@ -143,7 +190,8 @@ std::string render(const WorkFigure& figure) {
       if ((point.css_class == "usual") == usual) out += symbol(point, x, y, point.at.y <= figure.floor);
     }
   }
-  return withSaveLinks("plot", out + "</svg>", "<div class=\"readout\" hidden></div>", figure.title, csvOf(figure));
+  return withSaveLinks("plot", out + tags(figure, x, y) + below + "</svg>", "<div class=\"readout\" hidden></div>",
+                       figure.title, csvOf(figure));
 }
 
 }  // namespace presa::svg

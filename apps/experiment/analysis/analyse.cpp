@@ -48,6 +48,18 @@ std::vector<std::string> notesOn(const Request& request, const std::vector<Sessi
   return notes;
 }
 
+/// Leaves the sessions of the first `subjects`; 0: all.
+void keepFirst(std::size_t subjects, std::vector<SessionData>& sessions) {
+  std::vector<std::string> kept;
+  if (subjects == 0) return;
+  std::erase_if(sessions, [&](const SessionData& session) {
+    const std::string& id = session.log.start.subject.id;
+    const bool known = std::find(kept.begin(), kept.end(), id) != kept.end();
+    if (!known && kept.size() < subjects) kept.push_back(id);
+    return std::find(kept.begin(), kept.end(), id) == kept.end();
+  });
+}
+
 /// Table ids are file names: repeated ids get a number.
 void makeIdsDiffer(std::vector<Section>& sections) {
   std::set<std::string> taken;
@@ -70,7 +82,8 @@ std::vector<std::string> Result::headlines() const {
 }
 
 Result analyse(const Request& request, const Progress& progress) {
-  const std::vector<SessionData> sessions = readSessions(request.data);
+  std::vector<SessionData> sessions = readSessions(request.data);
+  keepFirst(request.subjects, sessions);
   const std::string file =
       request.experiment.empty() ? sessions.front().folder.file("experiment.xml") : request.experiment;
   Experiment experiment = readDefinition(file);

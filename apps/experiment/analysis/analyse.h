@@ -8,8 +8,9 @@
 namespace presa::experiment::analysis {
 
 struct Request {
-  std::string data;        ///< folder of a dataset, or of one session
-  std::string experiment;  ///< experiment file that defines the analysis; empty: the dataset's own copy
+  std::string data;          ///< folder of a dataset, or of one session
+  std::string experiment;    ///< experiment file that defines the analysis; empty: the dataset's own copy
+  std::size_t subjects = 0;  ///< only the first so many of the dataset; 0: all
 };
 
 /// The analysis of one dataset. Deterministic: the same data and analysis give the same text.

@@ -76,6 +76,9 @@ void addSimulate(Command app, int& status) {
   command.option("--seeds", plan->studies, "studies; the first has the experiment's own seed, the next those after it")
       .withinCount(1, 999)
       .showDefault();
+  command.option("--power", plan->power, "wanted power: the page says which tests reach it, and with how many subjects")
+      .within(0.05, 1)
+      .showDefault();
   command.option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2").oneOf({"L0", "L1", "L2"});
   command.option("--rig", plan->rig_file, "rig with simulated devices instead").existingFile();
   command.option("--jobs", plan->jobs, "sessions at once (default: one per processor)").positive();

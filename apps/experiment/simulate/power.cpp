@@ -13,6 +13,7 @@
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
 #include "apps/experiment/analysis/analyse.h"
+#include "apps/experiment/simulate/power_curve.h"
 
 namespace presa::experiment {
 namespace {
@@ -128,7 +129,28 @@ Table tableOf(const std::vector<Spread>& spreads) {
   return table;
 }
 
-std::string pageOf(const StudiesPlan& plan, const Experiment& experiment, const Table& table) {
+/// One curve per test that the analysis of all subjects has.
+std::vector<PowerCurve> curvesOf(const std::map<int, Collection>& by_size) {
+  std::vector<PowerCurve> curves;
+  if (by_size.empty()) return curves;
+  for (const Spread& test : by_size.rbegin()->second.spreads()) {
+    if (test.power < 0) continue;
+    PowerCurve& curve = curves.emplace_back();
+    curve.test =
+        test.table + (test.row.empty() ? "" : ", " + test.row) + (test.column == "p" ? "" : ", " + test.column);
+    for (const auto& [subjects, collection] : by_size) {
+      for (const Spread& one : collection.spreads()) {
+        if (one.table != test.table || one.row != test.row || one.column != test.column || one.power < 0) continue;
+        const auto significant = static_cast<std::size_t>(std::lround(one.power * static_cast<double>(one.studies)));
+        curve.points.push_back(powerPoint(subjects, significant, one.studies));
+      }
+    }
+  }
+  return curves;
+}
+
+std::string pageOf(const StudiesPlan& plan, const Experiment& experiment, const std::vector<PowerCurve>& curves,
+                   const Table& table) {
   const std::string title = experiment.title.empty() ? experiment.name : experiment.title;
   return page::head(title + " – simulated studies – Presa") + "<h1>" + svg::escape(title) +
          "</h1>\n<p class=\"lead\">" +
@@ -136,8 +158,10 @@ std::string pageOf(const StudiesPlan& plan, const Experiment& experiment, const 
              "%d simulated studies of %d subjects each: the distribution of each number of the analysis, and how often "
              "each test is significant (p &lt; 0.05).",
              plan.studies, plan.subjects) +
-         "</p>\n<div class=\"verdict bad\"><b>A model, not a person</b>\n<p>" + svg::escape(experiment.model) +
-         ". Power is that of this model; people may differ.</p></div>\n" + htmlOf(table) + page::tail();
+         "</p>\n" + powerFigure(curves, plan.subjects, plan.power) +
+         "<div class=\"verdict neutral\"><b>A model, not a person</b>\n<p>" + svg::escape(experiment.model) +
+         ". Power is that of this model; people may differ.</p></div>\n<h2>Every number</h2>\n" + htmlOf(table) +
+         page::tail();
 }
 
 void print(const std::vector<Spread>& spreads, const std::string& out) {
@@ -146,7 +170,7 @@ void print(const std::vector<Spread>& spreads, const std::string& out) {
       std::printf("  %-28s %-24s %-14s %8.3f [%.3f, %.3f]%s\n", one.table.c_str(), one.row.c_str(), one.column.c_str(),
                   one.mean, one.low, one.high, one.power < 0 ? "" : format("   power %.2f", one.power).c_str());
   }
-  std::printf("%s/power.html, power.csv; every study: studies.csv\n", out.c_str());
+  std::printf("%s/power.html, power.csv, power_curve.csv; every study: studies.csv\n", out.c_str());
 }
 
 }  // namespace
@@ -156,25 +180,30 @@ int reportPower(const StudiesPlan& plan, const Experiment& experiment) {
     std::printf("the experiment names no <analysis>: nothing is computed from the trials\n");
     return kExitOk;
   }
-  Collection collection;
+  std::map<int, Collection> by_size;
   terminal::JobProgress progress(static_cast<std::size_t>(plan.studies));
   for (int study = 1; study <= plan.studies; ++study) {
     const auto go_on = [&](std::size_t, std::size_t, const std::string&) {
       progress.show();
       return !terminal::JobProgress::interrupted();
     };
-    const analysis::Result result =
-        analysis::analyse({plan.out + format("/study-%03d", study), plan.experiment_file}, go_on);
-    if (result.interrupted) return kExitInterrupted;
-    collection.add(study, result);
+    for (const int subjects : curveSizes(plan.subjects)) {
+      const analysis::Result result = analysis::analyse(
+          {plan.out + format("/study-%03d", study), plan.experiment_file, static_cast<std::size_t>(subjects)}, go_on);
+      if (result.interrupted) return kExitInterrupted;
+      by_size[subjects].add(study, result);
+    }
     progress.done(format("analysis of study %d", study));
   }
   progress.finish();
+  const Collection& collection = by_size.at(plan.subjects);
   const std::vector<Spread> spreads = collection.spreads();
+  const std::vector<PowerCurve> curves = curvesOf(by_size);
   const Table table = tableOf(spreads);
   writeFileAtomically(plan.out + "/studies.csv", collection.csv());
   writeFileAtomically(plan.out + "/power.csv", csvOf(table));
-  writeFileAtomically(plan.out + "/power.html", pageOf(plan, experiment, table));
+  writeFileAtomically(plan.out + "/power_curve.csv", powerCurveCsv(curves));
+  writeFileAtomically(plan.out + "/power.html", pageOf(plan, experiment, curves, table));
   print(spreads, plan.out);
   return kExitOk;
 }

@@ -15,8 +15,8 @@ struct Spread {
   double power = -1;                           ///< for a p value: share of the studies with p < 0.05; otherwise -1
 };
 
-/// Analyses every study as its experiment's file says and writes OUT/power.csv, OUT/power.html and OUT/studies.csv
-/// (every number of every study); the power of each test goes to stdout. Returns an exit status.
+/// Analyses every study as its experiment's file says and writes OUT/power.csv, OUT/power_curve.csv, OUT/power.html and
+/// OUT/studies.csv (every number of every study); the power of each test goes to stdout. Returns an exit status.
 int reportPower(const StudiesPlan& plan, const Experiment& experiment);
 
 }  // namespace presa::experiment

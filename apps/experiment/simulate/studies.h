@@ -11,6 +11,7 @@ struct StudiesPlan {
   std::string level;  ///< level of the simulated subjects; empty: the rig's
   std::string rig_file;
   int subjects = 3, studies = 1;
+  double power = 0.8;         ///< wanted
   int jobs = 0;               ///< parallel sessions; 0: one per processor
   int shard = 1, shards = 1;  ///< this machine runs every `shards`-th session, beginning with `shard`
   bool recordings = false;    ///< record every haptic tick

@@ -9,9 +9,6 @@
 namespace presa::cost {
 namespace {
 
-// other engines serve only for comparison: they do not support fingers, so none can be a default
-constexpr const char* kEngineFactor = "engine";
-
 /// True when the outcome has an error in this metric and a cost.
 bool shown(const Outcome& outcome, const std::string& metric) {
   return outcome.failure.empty() && outcome.timed() && outcome.error.contains(metric);
@@ -44,42 +41,17 @@ std::string valueOf(const Setting& setting, const std::string& factor) {
 
 }  // namespace
 
+std::string setOptions(const std::vector<std::string>& sets) {
+  std::string out;
+  for (const std::string& set : sets) {
+    const bool plain = set.find_first_of(" '\"$") == std::string::npos;
+    out += (out.empty() ? "--set " : " --set ") + (plain ? set : "'" + set + "'");
+  }
+  return out;
+}
+
 std::string withUnit(double value, const std::string& unit) {
   return terminal::format("%.3g", value) + (unit.empty() ? "" : " " + unit);
-}
-
-std::vector<std::size_t> paretoFront(const Result& result, const std::string& metric, CostOf cost_of) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
-    if (shown(result.outcomes[i], metric)) order.push_back(i);
-  }
-  const auto cost = [&](std::size_t i) { return (result.outcomes[i].*cost_of)().median; };
-  const auto error = [&](std::size_t i) { return result.claimed(result.outcomes[i], metric); };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return cost(a) != cost(b) ? cost(a) < cost(b) : error(a) < error(b); });
-  std::vector<std::size_t> front;
-  for (const std::size_t i : order) {
-    if (front.empty() || error(i) < error(front.back())) front.push_back(i);
-  }
-  return front;
-}
-
-std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric) {
-  if (result.outcomes.empty() || !shown(result.outcomes.front(), metric)) return std::nullopt;
-  const auto cost = [&](std::size_t i) { return result.outcomes[i].perSecond().median; };
-  const auto error = [&](std::size_t i) { return result.claimed(result.outcomes[i], metric); };
-  FrontDistance found;
-  for (std::size_t i = 1; i < result.outcomes.size(); ++i) {
-    const Setting& setting = result.outcomes[i].setting;
-    const bool eligible = valueOf(setting, kEngineFactor) == valueOf(result.outcomes.front().setting, kEngineFactor);
-    if (!shown(result.outcomes[i], metric) || !eligible) continue;
-    if (error(i) <= error(0) && cost(i) < cost(found.as_accurate)) found.as_accurate = i;
-    if (cost(i) <= cost(0) && error(i) < error(found.as_cheap)) found.as_cheap = i;
-  }
-  const auto over = [](double a, double b) { return a > b ? a / b : 1; };
-  found.cost = over(cost(0), cost(found.as_accurate));
-  found.error = over(error(0), error(found.as_cheap));
-  return found;
 }
 
 std::vector<FactorGain> factorGains(const Result& result, const std::string& metric) {
@@ -102,7 +74,7 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
                     std::nullopt};
     // a change within the spread of the repeats does not count
     const bool apart = changed.low > cost.high || changed.high < cost.low;
-    if (apart && std::abs(std::log(gain.cost_ratio)) > 0.05 && gain.error_ratio > 0)
+    if (apart && std::abs(std::log(gain.cost_ratio)) > std::log(kSameCost) && gain.error_ratio > 0)
       gain.per_double_cost = std::pow(gain.error_ratio, std::log(2.0) / std::log(gain.cost_ratio));
     gains.push_back(gain);
   }
@@ -115,28 +87,6 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
     return place(a.factor) < place(b.factor);
   });
   return gains;
-}
-
-std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit) {
-  for (const std::size_t i : paretoFront(result, metric)) {
-    if (result.claimed(result.outcomes[i], metric) < limit) return i;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::size_t> cheapestUnfelt(const Result& result) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
-    const Outcome& outcome = result.outcomes[i];
-    const bool unfelt = std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
-      const auto limit = result.reference.noticeable.find(metric);
-      if (limit == result.reference.noticeable.end()) return true;
-      return outcome.error.contains(metric) && result.claimed(outcome, metric) < limit->second;
-    });
-    if (!unfelt || !outcome.failure.empty() || !outcome.timed()) continue;
-    if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;
-  }
-  return best;
 }
 
 std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& factor) {

@@ -57,11 +57,6 @@ Lines linesAlong(const Result& result, const std::string& factor) {
   return lines;
 }
 
-std::string lowered(std::string title) {
-  if (!title.empty()) title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  return title;
-}
-
 struct Limit {
   double value = 0;
   std::string words;
@@ -82,12 +77,12 @@ std::string below(const Result& result, const SentenceRule& rule) {
   std::size_t good = 0;
   const Outcome* best = nullptr;
   const Outcome* worst = nullptr;
-  for (const Outcome& outcome : result.outcomes) {
-    if (!has(outcome, rule.metric)) continue;
-    const double error = result.claimed(outcome, rule.metric);
-    good += error < limit->value ? 1 : 0;
-    if (best == nullptr || error < best->error.at(rule.metric)) best = &outcome;
-    if (worst == nullptr || error > worst->error.at(rule.metric)) worst = &outcome;
+  const auto error = [&](const Outcome* outcome) { return result.claimed(*outcome, rule.metric); };
+  for (const Judged& each : judged(result, rule.metric)) {
+    const Outcome* outcome = &result.outcomes[each.index];
+    good += error(outcome) < limit->value ? 1 : 0;
+    if (best == nullptr || error(outcome) < error(best)) best = outcome;
+    if (worst == nullptr || error(outcome) > error(worst)) worst = outcome;
   }
   if (best == nullptr) return {};
   const Metric& metric = *findMetric(rule.metric);
@@ -171,13 +166,8 @@ std::string front(const Result& result, const SentenceRule& rule) {
   if (!distance) return {};
   const std::string title = lowered(findMetric(rule.metric)->title);
   if (distance->ratio() <= 1) return "The default lies on the front of " + title + ".";
-  const std::string cheaper = result.outcomes[distance->as_accurate].setting.name;
-  const std::string better = result.outcomes[distance->as_cheap].setting.name;
-  return format("The default lies %s 1.3 times of the front of ",
-                distance->ratio() <= kNearFront ? "within" : "beyond") +
-         title +
-         format(": as accurate at 1/%.3g of the processor time is %s, and no dearer at 1/%.3g of the error is %s.",
-                distance->cost, cheaper.c_str(), distance->error, better.c_str());
+  return std::string("The default lies ") + (distance->ratio() <= kNearFront ? "within" : "beyond") +
+         " 1.3 times of the front of " + title + ": " + whatBeats(result, *distance) + ".";
 }
 
 std::string failures(const Result& result) {
@@ -199,6 +189,22 @@ std::string failures(const Result& result) {
 }
 
 }  // namespace
+
+std::string whatBeats(const Result& result, const FrontDistance& distance) {
+  std::string text;
+  if (distance.cost > 1)
+    text = format("as accurate at 1/%.4g of the processor time is ", distance.cost) +
+           result.outcomes[distance.as_accurate].setting.name;
+  if (distance.error > 1)
+    text += (text.empty() ? "" : ", and ") + format("no dearer at 1/%.4g of the error is ", distance.error) +
+            result.outcomes[distance.as_cheap].setting.name;
+  return text;
+}
+
+std::string lowered(std::string title) {
+  if (!title.empty()) title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  return title;
+}
 
 std::vector<std::string> sentences(const Result& result) {
   std::vector<std::string> texts;

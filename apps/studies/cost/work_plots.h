@@ -5,10 +5,11 @@
 
 namespace presa::cost {
 
-/// A section of the report: plots of error over cost, a pair for every metric.
+/// Work–precision plots (error over processor time) of the judged metrics, at most four.
 std::string workPlots(const Result& result);
-
-/// The plot for the metric of the study's first sentence, as the text of an SVG file; empty: none.
+/// The same of the other metrics, without those that show no more than a plot before them.
+std::string otherPlots(const Result& result);
+/// The plot of the first judged metric as an SVG file, or "".
 std::string frontPicture(const Result& result);
 
 }  // namespace presa::cost

@@ -204,6 +204,8 @@ TEST_F(SessionTest, SimulatedStudiesGoOnWithWhatIsThere) {
   EXPECT_THAT(output, HasSubstr("scripted fingers: no person"));
   EXPECT_NE(essence(logOf(out + "/study-001")), essence(logOf(out + "/study-002")));
   EXPECT_THAT(contentsOf(out + "/power.csv"), HasSubstr("spearman_mu_felt_1"));
+  EXPECT_THAT(contentsOf(out + "/power_curve.csv"), HasSubstr("1,\"spearman_mu_felt_1, all mu_s_1\","));
+  EXPECT_THAT(contentsOf(out + "/power.html"), HasSubstr("Power over the number of subjects"));
   fs::remove_all(out + "/study-002/sub-S02");
   ASSERT_EQ(program(arguments), 0) << output;
   EXPECT_THAT(output, HasSubstr("4 sessions complete, 3 of them before, 0 failed"));

@@ -1,0 +1,101 @@
+#include "apps/studies/cost/front.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "apps/common/terminal/text.h"
+
+namespace presa::cost {
+namespace {
+
+constexpr const char* kEngineFactor = "engine";
+
+double asPrinted(double value) { return std::strtod(terminal::format("%.3g", value).c_str(), nullptr); }
+
+std::string engineOf(const Setting& setting) {
+  for (const auto& [name, value] : setting.choices) {
+    if (name == kEngineFactor) return value;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<Judged> judged(const Result& result, const std::string& metric) {
+  std::vector<Judged> all;
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const Outcome& outcome = result.outcomes[i];
+    if (!outcome.failure.empty() || !outcome.timed() || !outcome.error.contains(metric)) continue;
+    all.push_back({i, outcome.perSecond(), asPrinted(result.claimed(outcome, metric))});
+  }
+  return all;
+}
+
+bool noDearer(const Judged& a, const Judged& b) { return a.cost.median <= kSameCost * b.cost.median; }
+
+bool cheaper(const Judged& a, const Judged& b) {
+  return kSameCost * a.cost.median < b.cost.median && a.cost.high < b.cost.low;
+}
+
+bool beats(const Judged& a, const Judged& b) {
+  return (a.error < b.error && noDearer(a, b)) || (a.error <= b.error && cheaper(a, b));
+}
+
+bool comparable(const Result& result, std::size_t index) {
+  return engineOf(result.outcomes[index].setting) == engineOf(result.outcomes.front().setting);
+}
+
+std::vector<Judged> frontOf(const Result& result, const std::string& metric) {
+  std::vector<Judged> all = judged(result, metric);
+  std::erase_if(all, [&](const Judged& each) { return !comparable(result, each.index); });
+  std::vector<Judged> front;
+  for (const Judged& each : all) {
+    if (std::none_of(all.begin(), all.end(), [&](const Judged& other) { return beats(other, each); }))
+      front.push_back(each);
+  }
+  std::stable_sort(front.begin(), front.end(),
+                   [](const Judged& a, const Judged& b) { return a.cost.median < b.cost.median; });
+  return front;
+}
+
+std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric) {
+  const std::vector<Judged> all = judged(result, metric);
+  if (all.empty() || all.front().index != 0) return std::nullopt;
+  const Judged &usual = all.front(), *as_accurate = &usual, *as_cheap = &usual;
+  for (const Judged& each : all) {
+    if (!comparable(result, each.index)) continue;
+    if (each.error <= usual.error && cheaper(each, usual) && each.cost.median < as_accurate->cost.median)
+      as_accurate = &each;
+    if (noDearer(each, usual) && each.error < as_cheap->error) as_cheap = &each;
+  }
+  return FrontDistance{usual.cost.median / as_accurate->cost.median, usual.error / as_cheap->error, as_accurate->index,
+                       as_cheap->index};
+}
+
+std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit) {
+  std::optional<Judged> best;
+  for (const Judged& each : judged(result, metric)) {
+    if (!(result.claimed(result.outcomes[each.index], metric) < limit)) continue;
+    if (!best || each.cost.median < best->cost.median ||
+        (each.cost.median == best->cost.median && each.error < best->error))
+      best = each;
+  }
+  return best ? std::optional(best->index) : std::nullopt;
+}
+
+std::optional<std::size_t> cheapestUnfelt(const Result& result) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const Outcome& outcome = result.outcomes[i];
+    const bool unfelt = std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
+      const auto limit = result.reference.noticeable.find(metric);
+      if (limit == result.reference.noticeable.end()) return true;
+      return outcome.error.contains(metric) && result.claimed(outcome, metric) < limit->second;
+    });
+    if (!unfelt || !outcome.failure.empty() || !outcome.timed()) continue;
+    if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;
+  }
+  return best;
+}
+
+}  // namespace presa::cost

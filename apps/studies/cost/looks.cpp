@@ -1,0 +1,119 @@
+#include "apps/studies/cost/looks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "apps/studies/cost/verdict.h"
+
+namespace presa::cost {
+namespace {
+
+constexpr int kShapes[] = {0, 1, 2, 4};  // of svg::symbolPath; the diamond is the default's
+
+int shapeOf(std::size_t i) { return kShapes[i % std::size(kShapes)]; }
+
+/// Indices of the knobs in which the setting differs from the default.
+std::vector<std::size_t> differences(const Result& result, const Outcome& outcome) {
+  std::vector<std::size_t> found;
+  const auto &a = outcome.setting.choices, &b = result.outcomes.front().setting.choices;
+  for (std::size_t k = 0; k < a.size() && k < b.size(); ++k) {
+    if (a[k].second != b[k].second) found.push_back(k);
+  }
+  return found;
+}
+
+/// A knob's values in the study's order, then others in the order of the settings.
+std::vector<std::string> valuesOf(const Result& result, std::size_t knob) {
+  std::vector<std::string> values;
+  const auto add = [&](const std::string& value) {
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  };
+  for (const Outcome& outcome : result.outcomes) add(outcome.setting.choices[knob].second);
+  return values;
+}
+
+/// Variance of the logarithms of cost and error that a knob's values explain, per value beyond the first.
+double effectOf(const Result& result, std::size_t knob) {
+  const std::vector<std::string> metrics = judgedMetrics(result);
+  if (metrics.empty()) return 0;
+  struct Sums {
+    double n = 0, cost = 0, error = 0;
+    double explained() const { return (cost * cost + error * error) / n; }
+  };
+  std::map<std::string, Sums> groups;
+  Sums all;
+  for (const Judged& each : judged(result, metrics.front())) {
+    for (Sums* sums : {&groups[result.outcomes[each.index].setting.choices[knob].second], &all})
+      sums->n += 1, sums->cost += std::log(each.cost.median), sums->error += std::log(each.error);
+  }
+  double effect = all.n > 0 ? -all.explained() : 0;
+  for (const auto& [value, sums] : groups) effect += sums.explained();
+  return groups.size() > 1 ? effect / static_cast<double>(groups.size() - 1) : 0;
+}
+
+std::string tagOf(const Result& result, const Outcome& outcome, const std::vector<std::size_t>& knobs) {
+  if (knobs.empty()) return &outcome == &result.outcomes.front() ? "default" : outcome.setting.name;
+  std::string tag;
+  for (const std::size_t k : knobs) tag += (tag.empty() ? "" : ", ") + outcome.setting.choices[k].second;
+  return tag;
+}
+
+/// The knobs, the one to colour by first.
+std::vector<std::size_t> ranked(const Result& result, std::vector<std::size_t> knobs) {
+  const auto rank = [&](std::size_t k) {
+    return result.outcomes.front().setting.choices[k].first == "engine" ? INFINITY : effectOf(result, k);
+  };
+  std::stable_sort(knobs.begin(), knobs.end(), [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  return knobs;
+}
+
+}  // namespace
+
+Looks looksOf(const Result& result) {
+  Looks looks;
+  if (result.outcomes.empty()) return looks;
+  const auto& usual = result.outcomes.front().setting.choices;
+  bool one_at_a_time = true;
+  for (const Outcome& outcome : result.outcomes) {
+    const std::vector<std::size_t> knobs = differences(result, outcome);
+    one_at_a_time = one_at_a_time && knobs.size() < 2;
+    looks.of.push_back({0, 0, tagOf(result, outcome, knobs)});
+  }
+  std::vector<std::size_t> knobs;
+  for (std::size_t k = 0; k < usual.size(); ++k) {
+    if (valuesOf(result, k).size() > 1) knobs.push_back(k);
+  }
+  if (one_at_a_time) {
+    for (std::size_t rank = 0; rank < knobs.size(); ++rank)
+      looks.legend.push_back({usual[knobs[rank]].first, static_cast<int>(rank % 6), shapeOf(rank)});
+    for (std::size_t i = 0; i < looks.of.size(); ++i) {
+      const std::vector<std::size_t> own = differences(result, result.outcomes[i]);
+      if (own.empty()) continue;
+      const auto rank = static_cast<std::size_t>(std::find(knobs.begin(), knobs.end(), own.front()) - knobs.begin());
+      looks.of[i].color = looks.legend[rank].color;
+      looks.of[i].shape = looks.legend[rank].shape;
+    }
+    return looks;
+  }
+  knobs = ranked(result, knobs);
+  for (std::size_t rank = 0; rank < 2; ++rank) {
+    const std::vector<std::string> values = valuesOf(result, knobs[rank]);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      const int color = static_cast<int>(v % 6);
+      looks.legend.push_back(
+          {usual[knobs[rank]].first + " " + values[v], rank == 0 ? color : -1, rank == 0 ? 0 : shapeOf(v)});
+    }
+    for (std::size_t i = 0; i < looks.of.size(); ++i) {
+      const std::string& value = result.outcomes[i].setting.choices[knobs[rank]].second;
+      const auto v = static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
+      if (rank == 0)
+        looks.of[i].color = static_cast<int>(v % 6);
+      else
+        looks.of[i].shape = shapeOf(v);
+    }
+  }
+  return looks;
+}
+
+}  // namespace presa::cost
