@@ -48,7 +48,7 @@ std::string verdictBlock(const Result& result) {
   const Verdict verdict = verdictOf(result);
   using Kind = Verdict::Kind;
   const bool good = verdict.kind == Kind::kOnFront || verdict.kind == Kind::kNear;
-  const bool bad = verdict.kind == Kind::kBeaten || !result.outcomes.front().failure.empty();
+  const bool bad = (verdict.kind == Kind::kBeaten && !verdict.unfelt) || !result.outcomes.front().failure.empty();
   std::string out = std::string("<div class=\"verdict ") +
                     (good  ? "good"
                      : bad ? "bad"

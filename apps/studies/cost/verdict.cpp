@@ -38,6 +38,14 @@ bool felt(const Result& result, const std::string& metric, std::size_t index) {
          result.claimed(outcome, metric) >= limit->second;
 }
 
+/// Whether nobody feels any of these errors of the default, as far as thresholds are known for all of them.
+bool defaultUnfelt(const Result& result, const std::vector<std::string>& names) {
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return result.reference.noticeable.contains(name) && result.outcomes.front().error.contains(name) &&
+           !felt(result, name, 0);
+  });
+}
+
 /// How much the setting gains over the default, as a sum of logarithms; no value when it may not replace it.
 std::optional<double> gainOf(const Result& result, std::size_t index) {
   double sum = 0;
@@ -165,7 +173,9 @@ Verdict verdictOf(const Result& result) {
   } else if (verdict.better) {
     const std::size_t better = *verdict.better;
     verdict.kind = Verdict::Kind::kBeaten;
-    verdict.headline = "The default is beaten by " + result.outcomes[better].setting.name;
+    verdict.unfelt = defaultUnfelt(result, names);
+    verdict.headline = "The default is beaten by " + result.outcomes[better].setting.name +
+                       (verdict.unfelt ? ", but nobody feels the errors of either" : "");
     verdict.details.push_back("It has " + gainText(result, better) + ".");
     if (const std::string prices = pricesOf(result, better); !prices.empty())
       verdict.details.push_back("It is worse than the default in errors that this study does not judge: " + prices +

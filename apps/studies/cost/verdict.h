@@ -17,6 +17,7 @@ struct Verdict {
     kBeaten     ///< `better` may replace it
   };
   Kind kind = Kind::kUnknown;
+  bool unfelt = false;                ///< every judged error of the default is below what is just noticeable
   std::optional<std::size_t> better;  ///< for kBeaten: index of the setting to take
   std::string headline;
   std::vector<std::string> details;  ///< sentences

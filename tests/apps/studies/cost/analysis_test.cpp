@@ -163,6 +163,13 @@ TEST(Verdict, NamesWhatBeatsTheDefaultAndWhatDoesNot) {
   // half the error at the same cost, but what was not felt is felt
   result.outcomes.back() = outcome("210", "soft", 0.010, 0.1);
   EXPECT_EQ(verdictOf(result).kind, Verdict::Kind::kBeaten);
+  EXPECT_TRUE(verdictOf(result).unfelt) << "0.2 N of 0.3 that are just noticeable";
+  EXPECT_NE(verdictOf(result).headline.find("nobody feels the errors of either"), std::string::npos);
+  result.reference.noticeable["force_rms"] = 0.15;
+  EXPECT_FALSE(verdictOf(result).unfelt);
+  result.reference.noticeable.erase("force_rms");
+  EXPECT_FALSE(verdictOf(result).unfelt) << "nothing is known of what people feel";
+  result.reference.noticeable["force_rms"] = 0.3;
   result.metrics.push_back("position");
   result.reference.noticeable["position"] = 1;
   result.outcomes.front().error["position"] = 0.1;
