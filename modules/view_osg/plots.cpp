@@ -1,15 +1,23 @@
 #include "modules/view_osg/plots.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace presa::view {
 namespace {
 
-constexpr float kWidth = 262, kHeight = 84, kPitch = 90, kMargin = 18, kBottom = 126, kInset = 12, kCurveHeight = 50;
-const osg::Vec4 kPanel(0.05F, 0.07F, 0.10F, 0.74F), kInk(0.95F, 0.96F, 0.98F, 1);
+constexpr float kWidth = 262, kHeight = 84, kPitch = 90, kMargin = 18, kBottom = 126, kInset = 12, kCurveHeight = 46;
+constexpr float kNumbers = 36;                                                            // for the numbers of an axis
+constexpr float kLeft = kMargin + kInset + kNumbers, kRight = kMargin + kWidth - kInset;  // of the curves
+constexpr float kCurveBottom = 10;  // above the lower edge of a panel
+const osg::Vec4 kPanel(0.05F, 0.07F, 0.10F, 0.74F), kInk(0.95F, 0.96F, 0.98F, 1), kAxis(0.55F, 0.59F, 0.65F, 1);
 const std::array<osg::Vec4, 4> kCurves{osg::Vec4(0.35F, 0.85F, 1.0F, 1), osg::Vec4(1.0F, 0.66F, 0.2F, 1),
                                        osg::Vec4(0.6F, 0.95F, 0.5F, 1), osg::Vec4(0.95F, 0.5F, 0.85F, 1)};
+constexpr std::array<const char*, 3> kTitles{"normal force [N], last 5 s", "penetration [mm], last 5 s",
+                                             "haptic rate [Hz], last 5 s"};
 constexpr double kCountTime = 0.25;  ///< interval over which ticks are counted [s]
 
 osg::ref_ptr<osg::Geometry> curve(const osg::Vec4& color) {
@@ -23,6 +31,25 @@ osg::ref_ptr<osg::Geometry> curve(const osg::Vec4& color) {
   return line;
 }
 
+/// The axis and the line of its upper end, one unit thick.
+osg::ref_ptr<osg::Geometry> line(float x, float y, float width, float height) {
+  return polygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, kAxis);
+}
+
+/// The smallest of 1, 2 and 5 times a power of ten that is not below the value: the axis seldom changes.
+double roundedUp(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (value <= factor * power * (1 + 1e-9)) return factor * power;
+  return 10 * power;
+}
+
+std::string numberText(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
 }  // namespace
 
 Plots::Plots(osg::Group& left, const World& world)
@@ -32,7 +59,15 @@ Plots::Plots(osg::Group& left, const World& world)
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const float bottom = kBottom + kPitch * static_cast<float>(kQuantities - 1 - q);
     group_->addChild(roundedPanel({kMargin, bottom, kWidth, kHeight}, 8, kPanel));
-    Panel panel{Label(*group_, kMargin + kInset, bottom + kHeight - 18, 13, kInk, Typeface::kBold), {}};
+    const float zero = bottom + kCurveBottom, numbers = kLeft - 6;
+    group_->addChild(line(kLeft, zero, kRight - kLeft, 1));
+    group_->addChild(line(kLeft, zero, 1, kCurveHeight));
+    group_->addChild(line(kLeft - 3, zero + kCurveHeight, 3, 1));
+    Panel panel{Label(*group_, kMargin + kInset, bottom + kHeight - 18, 13, kInk, Typeface::kBold),
+                Label(*group_, numbers, zero + kCurveHeight - 4, 11, kInk, Typeface::kRegular, Label::Align::kRight),
+                {}};
+    Label(*group_, numbers, zero - 4, 11, kInk, Typeface::kRegular, Label::Align::kRight).set("0");
+    panel.title.set(kTitles[q]);
     for (std::size_t f = 0; f < (q == kRate ? 1 : fingers_); ++f) {
       panel.curves.push_back(curve(kCurves[f % kCurves.size()]));
       group_->addChild(panel.curves.back());
@@ -77,24 +112,21 @@ void Plots::update(bool shown) {
 }
 
 void Plots::draw(Quantity quantity) {
-  static constexpr std::array<const char*, kQuantities> kNames{"normal force", "penetration", "haptic rate"};
-  static constexpr std::array<const char*, kQuantities> kUnits{"N", "mm", "Hz"};
-  const double min_top = quantity == kForce ? 1 : quantity == kDepth ? 1 : nominal_rate_;
+  const double min_top = quantity == kRate ? 1.1 * nominal_rate_ : 1;  // the rate wavers about the nominal one
   double top = min_top;
   for (const Moment& moment : moments_) {
     for (std::size_t f = 0; f < panels_[quantity].curves.size(); ++f) top = std::max(top, moment.values[quantity][f]);
   }
-  std::array<char, 80> title;
-  std::snprintf(title.data(), title.size(), "%s, 0 to %.3g %s", kNames[quantity], top, kUnits[quantity]);
-  panels_[quantity].title.set(title.data());
-  const float bottom = kBottom + kPitch * static_cast<float>(kQuantities - 1 - quantity) + 8;
+  top = roundedUp(top);
+  panels_[quantity].top.set(numberText(top));
+  const float bottom = kBottom + kPitch * static_cast<float>(kQuantities - 1 - quantity) + kCurveBottom;
   const double begin = moments_.back().time - kSeconds;
   for (std::size_t f = 0; f < panels_[quantity].curves.size(); ++f) {
     osg::ref_ptr<osg::Vec3Array> points = new osg::Vec3Array;
     for (const Moment& moment : moments_) {
       const auto along = static_cast<float>((moment.time - begin) / kSeconds);
       const auto up = static_cast<float>(std::max(0.0, moment.values[quantity][f]) / top);
-      points->push_back({kMargin + kInset + (kWidth - 2 * kInset) * along, bottom + kCurveHeight * up, 0});
+      points->push_back({kLeft + (kRight - kLeft) * along, bottom + kCurveHeight * up, 0});
     }
     osg::Geometry& line = *panels_[quantity].curves[f];
     line.setVertexArray(points);

@@ -28,7 +28,7 @@ class Plots {
     std::array<std::vector<double>, kQuantities> values;  ///< [N] and [mm] by finger, [Hz] (first entry only)
   };
   struct Panel {
-    Label title;
+    Label title, top;
     std::vector<osg::ref_ptr<osg::Geometry>> curves;
   };
   double haptic(const GroupTimings& timings);

@@ -1,8 +1,10 @@
 #include "modules/view_osg/time_bar.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace presa::view {
 namespace {
@@ -11,19 +13,32 @@ constexpr float kHalfHeight = 360, kHalfWidth = 330, kThick = 9;
 constexpr double kReach = 10;  ///< clickable margin above and below the bar [lines]
 const osg::Vec4 kInk(0.95F, 0.96F, 0.98F, 1), kFilled(0.38F, 0.70F, 1.0F, 1);
 
+std::string seconds(double time) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f s", time);
+  return text.data();
+}
+
 }  // namespace
 
 void TimeBar::offer(const TimeControl& time_control, double length) {
   time_control_ = &time_control;
   length_ = length;
   pace_.emplace(center_, 0, bottom_ + 18, 14, kInk, Typeface::kBold, Label::Align::kCenter);
-  if (length > 0) bar_.emplace(center_, Rect{-kHalfWidth, bottom_, 2 * kHalfWidth, kThick});
+  if (length <= 0) return;
+  bar_.emplace(center_, Rect{-kHalfWidth, bottom_, 2 * kHalfWidth, kThick});
+  now_.emplace(center_, -kHalfWidth, bottom_ + 18, 14, kInk, Typeface::kRegular, Label::Align::kLeft);
+  end_.emplace(center_, kHalfWidth, bottom_ + 18, 14, kInk, Typeface::kRegular, Label::Align::kRight);
+  end_->set(seconds(length));
 }
 
 void TimeBar::update(double time) {
   time_ = time;
   if (time_control_ == nullptr) return;
-  if (bar_) bar_->set(time / length_, kFilled);
+  if (bar_) {
+    bar_->set(time / length_, kFilled);
+    now_->set(seconds(time));
+  }
   std::array<char, 64> text{};
   if (time_control_->paused)
     std::snprintf(text.data(), text.size(), "held");

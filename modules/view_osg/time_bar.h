@@ -7,7 +7,7 @@
 
 namespace presa::view {
 
-/// Time control: held or speed of a run, and in a recording a bar to move about in.
+/// Time control: held or speed of a run, and in a recording a bar to move about in, with its moment and its end.
 class TimeBar {
  public:
   /// `center`: origin in the middle of a picture of 720 lines, `bottom` in its coordinates.
@@ -26,7 +26,7 @@ class TimeBar {
   const TimeControl* time_control_ = nullptr;
   double length_ = 0, time_ = 0;
   std::optional<Bar> bar_;
-  std::optional<Label> pace_;
+  std::optional<Label> pace_, now_, end_;
 };
 
 }  // namespace presa::view

@@ -55,7 +55,7 @@ void ViewModule::start() {
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
     renderer_ = windowed() ? makeWindowRenderer(
-                                 *picture_, options_.participant ? "Presa" : "Presa \xe2\x80\x93 " + world_->scene.name,
+                                 *picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
                                  {.pointer = pointer_ ? &*pointer_ : nullptr,
                                   .time = time_,
                                   .undo = world_->scene.assembly.has_value(),

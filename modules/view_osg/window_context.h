@@ -10,7 +10,7 @@ struct WindowContext {
 };
 
 /// A decorated window on the display of the environment, multisampled if there is a graphics card and the X server has
-/// such a visual. Throws std::runtime_error with the reason.
+/// such a visual. Throws std::runtime_error with the reason. `title` in ASCII: OSG hands it to X as Latin-1.
 WindowContext openWindow(const std::string& title, int width, int height);
 
 /// The window of this process for the participant of an experiment: opened at the first call and whenever it was closed.

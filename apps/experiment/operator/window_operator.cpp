@@ -40,7 +40,7 @@ class WindowFace final : public Face {
   bool closed() const override { return window_->closed(); }
 
  private:
-  std::unique_ptr<TextWindow> window_ = openTextWindow("Presa \xe2\x80\x93 operator");
+  std::unique_ptr<TextWindow> window_ = openTextWindow("Presa: operator");
 };
 
 }  // namespace
