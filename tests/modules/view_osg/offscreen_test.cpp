@@ -183,9 +183,9 @@ TEST_F(Offscreen, ShowsWhatIsAskedFor) {
   EXPECT_THROW(view::ViewModule module(run.world, run.options), InputError);
 }
 
-// During the last of five seconds thumb and index press with a constant force each. The larger force is the end of the
-// scale, so its line runs along the top of the plot (364 lines above the lower edge) for the last fifth of its width;
-// the rest is empty.
+// During the last of five seconds thumb and index press with a constant force each, the thumb with 3.2 N. The axis ends at
+// 5 N, 46 lines above its zero, which is 316 above the lower edge: the thumb's line is 345.4 above it, for the last fifth
+// of the width (66 to 268); the rest is empty.
 TEST_F(Offscreen, PlotsTheLastSeconds) {
   const std::string file = tempFile("plots.png");
   auto run = makePinchRun(RunOptions::View::kOffscreen, file);
@@ -203,11 +203,11 @@ TEST_F(Offscreen, PlotsTheLastSeconds) {
   const PngPicture picture(file);
   const auto line = [&](int x) {  // within two lines of the expected height: it is one line thick, and averaged
     int max = 0;
-    for (int y = 354; y <= 358; ++y) max = std::max(max, picture.at(x, y).b - picture.at(x, y).r);
+    for (int y = 372; y <= 377; ++y) max = std::max(max, picture.at(x, y).b - picture.at(x, y).r);
     return max;
   };
-  for (const int x : {225, 245, 262}) EXPECT_GT(line(x), 60) << x;
-  for (const int x : {60, 120, 200}) EXPECT_LT(line(x), 30) << x;
+  for (const int x : {235, 250, 264}) EXPECT_GT(line(x), 60) << x;
+  for (const int x : {90, 140, 210}) EXPECT_LT(line(x), 30) << x;
 }
 
 }  // namespace
