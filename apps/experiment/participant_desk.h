@@ -7,8 +7,8 @@
 
 namespace presa::experiment {
 
-/// The participant's window between the runs of a session: what they are told before the first trial and in a rest, and what
-/// they are asked after a trial. Does nothing in a session without a window. Thread: main, while nothing runs.
+/// The participant's window between the runs of a session: what they are told before the first trial and in a rest, and
+/// what they are asked after a trial. Does nothing in a session without a window. Thread: main, while nothing runs.
 class ParticipantDesk {
  public:
   /// `experiment` must outlive the desk.
@@ -19,7 +19,8 @@ class ParticipantDesk {
   void tell(const std::string& moment);
   /// Shows question and answers.
   void ask();
-  /// The next key that answers, if the experiment shows answers and has asked; 0: none. Call it often while people wait.
+  /// The next key that answers, if the experiment shows answers and has asked; 0: none. Call it often while people
+  /// wait.
   char key();
   /// Gives the window to the run that comes next.
   void leave();

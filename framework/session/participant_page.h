@@ -5,9 +5,9 @@
 
 namespace presa {
 
-/// The window of an experiment's participant while nothing runs: black, with a text. The runs of this process draw into the
-/// same window (RunOptions::participant), so a page must be gone before a run starts; the window stays open. Thread: the one
-/// that opened it.
+/// The window of an experiment's participant while nothing runs: black, with a text. The runs of this process draw into
+/// the same window (RunOptions::participant), so a page must be gone before a run starts; the window stays open. Thread:
+/// the one that opened it.
 class ParticipantPage {
  public:
   virtual ~ParticipantPage() = default;

@@ -54,13 +54,13 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
-    renderer_ = windowed() ? makeWindowRenderer(
-                                 *picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
-                                 {.pointer = pointer_ ? &*pointer_ : nullptr,
-                                  .time = time_,
-                                  .undo = world_->scene.assembly.has_value(),
-                                  .participant = options_.participant.has_value()})
-                           : makeOffscreenRenderer(*picture_);
+    renderer_ = windowed()
+                    ? makeWindowRenderer(*picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
+                                         {.pointer = pointer_ ? &*pointer_ : nullptr,
+                                          .time = time_,
+                                          .undo = world_->scene.assembly.has_value(),
+                                          .participant = options_.participant.has_value()})
+                    : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),

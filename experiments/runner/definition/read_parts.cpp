@@ -85,8 +85,9 @@ void checkRepeats(const Element& element, const Experiment& experiment, Diagnost
 Sight sightOf(const std::string& words) {
   Sight sight{.bodies = false, .fingertips = false, .instruction = false, .question = false, .answers = false};
   const std::pair<const char*, bool*> all[] = {{"bodies", &sight.bodies},           {"fingertips", &sight.fingertips},
-                                               {"instruction", &sight.instruction}, {"question", &sight.question}, {"answers", &sight.answers},
-                                               {"measured", &sight.measured},       {"fixation", &sight.fixation}};
+                                               {"instruction", &sight.instruction}, {"question", &sight.question},
+                                               {"answers", &sight.answers},         {"measured", &sight.measured},
+                                               {"fixation", &sight.fixation}};
   std::istringstream list(words);
   for (std::string word; list >> word;) {
     for (const auto& [name, seen] : all) *seen = *seen || word == name;
