@@ -35,6 +35,16 @@ std::string system() {
   return std::string(name.sysname) + " " + name.release + " " + name.machine;
 }
 
+/// The time now, taken apart for a zone by `parts`.
+std::string now(const char* pattern, std::tm* (*parts)(const std::time_t*, std::tm*)) {
+  const std::time_t time = std::time(nullptr);
+  std::tm split{};
+  parts(&time, &split);
+  std::array<char, 48> text{};
+  std::strftime(text.data(), text.size(), pattern, &split);
+  return text.data();
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> machineFacts() {
@@ -47,23 +57,9 @@ std::vector<std::pair<std::string, std::string>> machineFacts() {
           {"Presa", versionText()}};
 }
 
-std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text.data();
-}
+std::string utcNow() { return now("%Y-%m-%dT%H:%M:%SZ", ::gmtime_r); }
 
-std::string localNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::localtime_r(&now, &parts);
-  std::array<char, 48> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %z", &parts);
-  return text.data();
-}
+std::string localNow() { return now("%Y-%m-%d %H:%M:%S %z", ::localtime_r); }
 
 std::string machineLine() {
   return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores, " + system();

@@ -7,6 +7,7 @@
 #include "framework/plugin/plugin_loader.h"
 #include "framework/scene/scene_facts.h"
 #include "framework/scene/schemas.h"
+#include "framework/scene/xml/escaped.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/scene/xml/value_rule.h"
 #include "framework/scene/xml/xml.h"
@@ -262,24 +263,8 @@ void checkTaken(const std::vector<Manifest>& all, Diagnostics& diagnostics) {
   }
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string boundOf(const char* facet, const std::string& value) {
-  return value.empty() ? "" : std::string("<xs:") + facet + " value=\"" + escaped(value) + "\"/>";
+  return value.empty() ? "" : std::string("<xs:") + facet + " value=\"" + xml::escaped(value) + "\"/>";
 }
 
 /// XSD name of an attribute's type. A bounded number gets a type of its own, added to `types`.
@@ -304,9 +289,9 @@ std::string declarationOf(const Manifest::Element& element, std::string& types) 
   out += "><xs:complexType>";
   for (const Manifest::Attribute& attribute : element.attributes) {
     out += "<xs:attribute name=\"" + attribute.name + "\" type=\"" + typeOf(element, attribute, types) + "\"";
-    out += attribute.required ? " use=\"required\"" : " default=\"" + escaped(attribute.default_value) + "\"";
-    out += "><xs:annotation><xs:documentation>" + escaped(attribute.about) +
-           (attribute.unit.empty() ? "" : " [" + escaped(attribute.unit) + "]") +
+    out += attribute.required ? " use=\"required\"" : " default=\"" + xml::escaped(attribute.default_value) + "\"";
+    out += "><xs:annotation><xs:documentation>" + xml::escaped(attribute.about) +
+           (attribute.unit.empty() ? "" : " [" + xml::escaped(attribute.unit) + "]") +
            "</xs:documentation></xs:annotation></xs:attribute>";
   }
   return out + "</xs:complexType></xs:element>\n";

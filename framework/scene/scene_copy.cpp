@@ -9,6 +9,7 @@
 #include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/schemas.h"
+#include "framework/scene/xml/escaped.h"
 #include "framework/scene/xml/source_scan.h"
 
 namespace presa {
@@ -24,20 +25,7 @@ struct TagEdit {
 };
 using Edits = std::map<std::size_t, TagEdit>;  ///< by the tag's number in document order
 
-std::string asValue(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out + "\"";
-}
+std::string asValue(const std::string& text) { return "\"" + xml::escaped(text) + "\""; }
 
 std::string markupOf(const Element& element) {
   std::string out = "<" + element.name();

@@ -17,13 +17,12 @@ namespace {
 using stability::Case;
 using stability::Row;
 using stability::Verdict;
+using test::browserMissing;
 using test::GreyGrid;
 using test::PngPicture;
 using test::scratch;
 using test::shell;
 using test::source;
-
-bool browserMissing() { return shell("command -v chromium").status != 0; }
 
 std::string folder() {
   const std::string folder = scratch("pictures");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/common/report/svg_scale.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa::svg {
 
@@ -27,11 +28,7 @@ std::string symbolPath(double x, double y, double r, int shape) {
   }
 }
 
-double textWidth(const std::string& text) {
-  const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  return 7 *
-         static_cast<double>(text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), follows)));
-}
+double textWidth(const std::string& text) { return 7 * static_cast<double>(terminal::widthOf(text)); }
 
 std::string pointLabels(const std::vector<PointLabel>& labels, const Box& area, std::vector<Box> taken) {
   struct Side {

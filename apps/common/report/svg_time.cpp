@@ -1,4 +1,5 @@
 #include "apps/common/report/svg_time.h"
+#include "apps/common/terminal/text.h"
 
 #include <algorithm>
 
@@ -16,7 +17,7 @@ double rightEdge(const TimeFigure& figure) {
   double widest = 0;
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series)
-      widest = std::max(widest, static_cast<double>(lettersOf(endLabelOf(panel, series))) * kWideCharacter);
+      widest = std::max(widest, static_cast<double>(terminal::widthOf(endLabelOf(panel, series))) * kWideCharacter);
   }
   return widest > 0 ? kWidth - widest - kSwatch - 14 : kNoLabels;
 }
@@ -45,7 +46,7 @@ std::string bandLabels(const std::vector<Band>& bands, const Scale& x, double y)
   for (const Band& band : bands) {
     const double width = x(band.end) - x(band.begin);
     // a name that does not fit appears only in the tooltip and the read-out
-    if (static_cast<double>(lettersOf(band.label)) * kCharacterPx > width) continue;
+    if (static_cast<double>(terminal::widthOf(band.label)) * kCharacterPx > width) continue;
     out += textAt(0.5 * (x(band.begin) + x(band.end)), y, "phase", escape(band.label));
   }
   return out;
@@ -81,13 +82,9 @@ std::string xLabels(const std::string& label, const Scale& x, double bottom) {
 
 }  // namespace
 
-std::size_t lettersOf(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string shortened(const std::string& text, double px) {
   const auto room = static_cast<std::size_t>(std::max(px / kCharacterPx, 2.0));
-  if (lettersOf(text) <= room) return text;
+  if (terminal::widthOf(text) <= room) return text;
   std::size_t bytes = 0;
   for (std::size_t letters = 0; bytes < text.size(); ++bytes)
     if ((text[bytes] & 0xC0) != 0x80 && ++letters == room) break;

@@ -15,8 +15,6 @@ inline constexpr double kSwatch = 14;        ///< line in front of a label
 inline constexpr double kMaxEndLabel = 180;  ///< longest name at the end of a curve
 inline constexpr int kTimeTicks = 12;        ///< about
 
-/// Characters of UTF-8 text.
-std::size_t lettersOf(const std::string& text);
 /// The text, or its beginning and "…" if it is wider than this.
 std::string shortened(const std::string& text, double px);
 

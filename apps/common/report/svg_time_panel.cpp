@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "apps/common/report/svg_time.h"
+#include "apps/common/terminal/text.h"
 
 namespace presa::svg {
 namespace {
@@ -53,7 +54,7 @@ std::string spanRects(const std::vector<Band>& spans, const Scale& x, double top
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const Band& span = spans[i];
     out += stripOf(span, "span span" + std::to_string(i % 2), x, top, kSpanHeight);
-    if (static_cast<double>(lettersOf(span.label)) * kCharacterPx < x(span.end) - x(span.begin))
+    if (static_cast<double>(terminal::widthOf(span.label)) * kCharacterPx < x(span.end) - x(span.begin))
       out += textAt(0.5 * (x(span.begin) + x(span.end)), top + 11, "tick xtick", escape(span.label));
   }
   return out;

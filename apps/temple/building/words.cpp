@@ -6,6 +6,7 @@
 #include "apps/temple/building/building_schemas.h"
 #include "apps/temple/building/shipped.h"
 #include "framework/scene/scene_parts.h"
+#include "framework/scene/xml/escaped.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa::temple {
@@ -33,23 +34,8 @@ AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
   return words;
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 std::string attribute(const char* name, const std::string& value) {
-  return std::string(" ") + name + "=\"" + escaped(value) + "\"";
+  return std::string(" ") + name + "=\"" + xml::escaped(value) + "\"";
 }
 
 }  // namespace

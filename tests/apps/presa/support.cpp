@@ -35,6 +35,8 @@ Outcome shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(out), contentsOf(err)};
 }
 
+bool browserMissing() { return shell("command -v chromium").status != 0; }
+
 Outcome presa(const std::string& arguments) { return shell(std::string(PRESA_BINARY_DIR) + "/bin/presa " + arguments); }
 
 std::string cubeWith(const std::string& name, const std::function<void(std::string&)>& edit) {

@@ -24,6 +24,8 @@ struct Outcome {
 };
 Outcome shell(const std::string& command);
 Outcome presa(const std::string& arguments);
+/// Whether there is no browser to look at pages with; config/packages.txt has one for the tests.
+bool browserMissing();
 
 /// The shipped cube, its text changed by `edit`, as a file in the scratch folder.
 std::string cubeWith(const std::string& name, const std::function<void(std::string&)>& edit);

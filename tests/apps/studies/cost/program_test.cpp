@@ -106,7 +106,7 @@ TEST(Cost, GoesOnAfterCtrlC) {
 
 // In a real browser the page loads nothing, logs no errors, shows its points, and names the setting under the pointer.
 TEST(Cost, TheReportWorksInABrowser) {
-  if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
+  if (test::browserMissing()) GTEST_SKIP() << "no chromium here";
   const std::string out = scratch("page");
   ASSERT_EQ(presa(kSmall + "--out " + out).status, 0);
   std::string page = contentsOf(out + "/report.html");

@@ -11,6 +11,7 @@ namespace presa::stability {
 namespace {
 
 using presa::test::scratch;
+using presa::test::browserMissing;
 using presa::test::shell;
 using test::MadeRows;
 using test::madeRows;
@@ -132,7 +133,7 @@ Extent extentOf(const std::string& page, int width, bool opened) {
 // The page of all cases is an overview: a few screens on a desk, and nothing lies beyond the edge of a phone, whatever
 // is open. A screen is some 900 px; five and a half of them hold 45 lines of the grid and 45 closed cases.
 TEST(StabilityPage, FitsADeskAndAPhone) {
-  if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
+  if (browserMissing()) GTEST_SKIP() << "no chromium here";
   const MadeRows made = madeRows(45);
   const std::string page = reportHtml(made.cases, made.rows);
   for (const int width : {1280, 390}) {
@@ -152,7 +153,7 @@ TEST(StabilityPage, FitsADeskAndAPhone) {
 
 // A link to a case opens it; two buttons open and close all. The page loads nothing.
 TEST(StabilityPage, ALinkOpensItsCase) {
-  if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
+  if (browserMissing()) GTEST_SKIP() << "no chromium here";
   const MadeRows made = madeRows(5);
   std::istringstream seen =
       seenInABrowser(reportHtml(made.cases, made.rows), 1280, "#case_3",
@@ -182,7 +183,7 @@ std::string printed(std::string page) {
 
 // On A4 (210 mm less margins of 14 mm: 688 px at 96 an inch) tables wrap and nothing is cut; closed cases stay out.
 TEST(StabilityPage, FitsPaper) {
-  if (shell("command -v chromium").status != 0) GTEST_SKIP() << "no chromium here";
+  if (browserMissing()) GTEST_SKIP() << "no chromium here";
   const MadeRows made = madeRows(5);
   const std::string page = printed(reportHtml(made.cases, made.rows));
   const Extent closed = extentOf(page, 688, false), opened = extentOf(page, 688, true);
