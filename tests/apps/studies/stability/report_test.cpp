@@ -10,8 +10,8 @@
 namespace presa::stability {
 namespace {
 
-using presa::test::scratch;
 using presa::test::browserMissing;
+using presa::test::scratch;
 using presa::test::shell;
 using test::MadeRows;
 using test::madeRows;
