@@ -29,7 +29,7 @@ double farthest(const TriMesh& from, const TriMesh& to) {
 
 }  // namespace
 
-TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles) {
+TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles, double max_error) {
   const auto simplify = reinterpret_cast<DecimateMeshFunction>(pluginSymbol("mesh_decimate", kMeshDecimateSymbol));
   std::vector<float> coordinates;
   for (const Vec3& v : mesh.vertices)
@@ -40,8 +40,8 @@ TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles) {
     for (const std::int32_t corner : t) indices.push_back(static_cast<std::uint32_t>(corner));
   }
   out.resize(indices.size());
-  out.resize(
-      simplify(indices.data(), indices.size(), coordinates.data(), mesh.vertices.size(), 3 * triangles, out.data()));
+  out.resize(simplify(indices.data(), indices.size(), coordinates.data(), mesh.vertices.size(), 3 * triangles,
+                      static_cast<float>(max_error), out.data()));
   TriMesh decimated;
   decimated.vertices = mesh.vertices;
   for (std::size_t i = 0; i + 2 < out.size(); i += 3) {

@@ -5,11 +5,11 @@
 namespace presa {
 
 /// Symbol kMeshDecimateSymbol: writes at most `index_count` corner indices of the simplified mesh to `out` and returns
-/// their number. The indices refer to the given vertices. Returns more than `wanted_index_count` when the topology
-/// forbids further collapses.
+/// their number. The indices refer to the given vertices. Returns more than `wanted_index_count` when the topology or
+/// `max_error` (in the unit of the coordinates) forbids further collapses.
 using DecimateMeshFunction = std::uint64_t (*)(const std::uint32_t* indices, std::uint64_t index_count,
                                                const float* coordinates, std::uint64_t vertex_count,
-                                               std::uint64_t wanted_index_count, std::uint32_t* out);
+                                               std::uint64_t wanted_index_count, float max_error, std::uint32_t* out);
 
 inline constexpr const char* kMeshDecimateSymbol = "presaDecimateMesh";
 

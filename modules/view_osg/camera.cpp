@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace presa::view {
@@ -75,6 +76,22 @@ CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double he
   const double back = std::min(height.back, width.back);
   const Vec3 eye = back * axes.forward + height.aside * axes.up + width.aside * axes.right;
   return {eye, eye + (all.center - eye).dot(axes.forward) * axes.forward};
+}
+
+double reachInPicture(const std::vector<Ball>& balls, const CameraPose& pose, double aspect, double used_width) {
+  const Vec3 forward = (pose.target - pose.eye).normalized();
+  const Vec3 right = forward.cross(Vec3::UnitZ()).normalized(), up = right.cross(forward);
+  const double slope = std::tan(kFieldOfView / 2 * kDegree);
+  const double height = kUsedHeight * slope, width = used_width * aspect * slope;
+  double reach = 0;
+  for (const Ball& ball : balls) {
+    const Vec3 p = ball.center - pose.eye;
+    const double depth = p.dot(forward);
+    if (depth <= ball.radius) return std::numeric_limits<double>::infinity();
+    const auto slopeTo = [&](double aside) { return (std::abs(aside) + ball.radius) / depth; };
+    reach = std::max({reach, slopeTo(p.dot(up)) / height, slopeTo(p.dot(right)) / width});
+  }
+  return reach;
 }
 
 }  // namespace presa::view

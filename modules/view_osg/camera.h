@@ -39,4 +39,8 @@ inline constexpr double kBetweenCards = 0.52, kWholeWidth = 0.88;
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading,
                         double used_width = kBetweenCards);
 
+/// How far the balls reach from the middle of the picture, relative to the area in which frameSubject places them: 1 if
+/// they fill it, more if one of them lies beyond it or behind the eye.
+double reachInPicture(const std::vector<Ball>& balls, const CameraPose& pose, double aspect, double used_width);
+
 }  // namespace presa::view

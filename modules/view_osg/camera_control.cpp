@@ -22,13 +22,6 @@ void CameraControl::set(const CameraPose& pose) {
   elevation_ = std::clamp(std::asin(std::clamp(out.z() / distance_, -1.0, 1.0)), -kSteepest, kSteepest);
 }
 
-void CameraControl::approach(const CameraPose& goal, double share) {
-  const CameraPose now = pose();
-  // arrived: rounding must not make a still picture tremble
-  if ((goal.eye - now.eye).norm() + (goal.target - now.target).norm() < 1e-9) return;
-  set({now.eye + share * (goal.eye - now.eye), now.target + share * (goal.target - now.target)});
-}
-
 void CameraControl::orbit(double right, double up) {
   heading_ -= kTurn * right;
   elevation_ = std::clamp(elevation_ - kTurn * up, -kSteepest, kSteepest);

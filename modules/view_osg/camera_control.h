@@ -11,8 +11,6 @@ class CameraControl {
   void setAspect(double aspect) { aspect_ = aspect; }
 
   void set(const CameraPose& pose);
-  /// Moves by a fraction (0 to 1) of the way to `goal`.
-  void approach(const CameraPose& goal, double share);
   /// Orbits the target; the scene turns with the mouse.
   void orbit(double right, double up);
   /// Pans; the target plane stays under the mouse.

@@ -66,7 +66,6 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   cones->setAttributeAndModes(shaders::cone());
   makeTranslucent(*cones, 10);
   osg::StateSet* tips = tips_->getOrCreateStateSet();
-  tips->setAttributeAndModes(shaders::skin());
   makeTranslucent(*tips, 11);
   tips->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
 
@@ -83,26 +82,34 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
        {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_), static_cast<osg::Node*>(through),
         static_cast<osg::Node*>(cones_), static_cast<osg::Node*>(tips_)})
     root_->addChild(part);
-  for (std::size_t i = 0; i < fingers; ++i) fingers_.push_back(makeFinger());
+  fingers_.resize(fingers);
+  setQuick(false);
 }
 
-ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger() {
+void ContactGlyphs::setQuick(bool quick) {
+  tips_->getOrCreateStateSet()->setAttributeAndModes(shaders::skin(quick));
+  for (osg::Group* group : {solid_.get(), arrows_.get(), cones_.get(), tips_.get()})
+    group->removeChildren(0, group->getNumChildren());
+  for (FingerGlyph& finger : fingers_) finger = makeFinger(quick ? kQuick : kFine);
+}
+
+ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger(const Roundness& round) {
   FingerGlyph finger;
-  finger.hip = placed(sphereGeometry(kHipRadius, kHipColor), *solid_);
-  finger.link = placed(unitShaft(kHipColor), *solid_);
-  finger.tip = placed(sphereGeometry(1, kSkinColor), *tips_);
-  finger.pen = placed(unitShaft(kPenColor), *solid_);
-  finger.shaft = placed(unitShaft(kArrowColor), *arrows_);
-  finger.head = placed(unitConeUp(kArrowColor), *arrows_);
+  finger.hip = placed(sphereGeometry(kHipRadius, kHipColor, round), *solid_);
+  finger.link = placed(unitShaft(kHipColor, round), *solid_);
+  finger.tip = placed(sphereGeometry(1, kSkinColor, round), *tips_);
+  finger.pen = placed(unitShaft(kPenColor, round), *solid_);
+  finger.shaft = placed(unitShaft(kArrowColor, round), *arrows_);
+  finger.head = placed(unitConeUp(kArrowColor, round), *arrows_);
   finger.tip_color = new osg::Uniform("state_color", osg::Vec3());
   finger.tip->getOrCreateStateSet()->addUniform(finger.tip_color);
   finger.pressure = new osg::Uniform("pressure", 0.0F);
   finger.tip->getOrCreateStateSet()->addUniform(finger.pressure);
 
   osg::ref_ptr<osg::Group> cone = new osg::Group;
-  osg::ref_ptr<osg::Geometry> side = unitFrictionCone(Vec3::Ones());
+  osg::ref_ptr<osg::Geometry> side = unitFrictionCone(Vec3::Ones(), round);
   side->getOrCreateStateSet()->addUniform(new osg::Uniform("opacity", 0.26F));
-  osg::ref_ptr<osg::Geometry> rim = unitRim(Vec3::Ones());
+  osg::ref_ptr<osg::Geometry> rim = unitRim(Vec3::Ones(), round);
   rim->getOrCreateStateSet()->addUniform(new osg::Uniform("opacity", 0.9F));
   cone->addChild(side);
   cone->addChild(rim);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/view_osg/finger_view.h"
+#include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/shown_parts.h"
 
 namespace presa::view {
@@ -24,6 +25,8 @@ class ContactGlyphs {
   osg::Group* root() { return root_; }
   /// The fingertips, which cast shadows.
   osg::Node* casters() { return tips_; }
+  /// Simplified for software rendering.
+  void setQuick(bool quick);
   void update(const std::vector<FingerView>& fingers);
   void show(const ShownParts& parts);
 
@@ -32,7 +35,7 @@ class ContactGlyphs {
     osg::ref_ptr<osg::MatrixTransform> hip, link, tip, pen, shaft, head, cone;
     osg::ref_ptr<osg::Uniform> tip_color, pressure, cone_color;
   };
-  FingerGlyph makeFinger();
+  FingerGlyph makeFinger(const Roundness& round);
   void updateForce(const FingerView& view, FingerGlyph& finger);
 
   osg::ref_ptr<osg::Group> root_ = new osg::Group;

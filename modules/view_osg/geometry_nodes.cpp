@@ -8,9 +8,6 @@
 namespace presa::view {
 namespace {
 
-constexpr int kAround = 96;  ///< segments per full turn
-constexpr int kArc = 32;     ///< segments per quarter circle of a profile
-
 osg::ref_ptr<osg::Geometry> assemble(osg::Vec3Array* positions, osg::Vec3Array* normals,
                                      osg::DrawElementsUInt* triangles, const Vec3& color) {
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -26,9 +23,9 @@ osg::ref_ptr<osg::Geometry> assemble(osg::Vec3Array* positions, osg::Vec3Array* 
 }
 
 /// Quarter circle about (0, z_center) from `from` to `to` [rad], angle measured from the xy plane.
-void appendArc(std::vector<ProfilePoint>& profile, double radius, double z_center, double from, double to) {
-  for (int i = 0; i <= kArc; ++i) {
-    const double angle = from + (to - from) * i / kArc;
+void appendArc(std::vector<ProfilePoint>& profile, double radius, double z_center, double from, double to, int pieces) {
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = from + (to - from) * i / pieces;
     const double c = std::cos(angle), s = std::sin(angle);
     profile.push_back({radius * c, z_center + radius * s, c, s});
   }
@@ -36,22 +33,23 @@ void appendArc(std::vector<ProfilePoint>& profile, double radius, double z_cente
 
 }  // namespace
 
-osg::ref_ptr<osg::Geometry> revolve(const std::vector<ProfilePoint>& profile, const Vec3& color) {
+osg::ref_ptr<osg::Geometry> revolve(const std::vector<ProfilePoint>& profile, const Vec3& color,
+                                    const Roundness& round) {
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
   osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
   for (const ProfilePoint& point : profile) {
-    for (int i = 0; i <= kAround; ++i) {
-      const double turn = 2 * std::numbers::pi * (i % kAround) / kAround;
+    for (int i = 0; i <= round.around; ++i) {
+      const double turn = 2 * std::numbers::pi * (i % round.around) / round.around;
       const double c = std::cos(turn), s = std::sin(turn);
       positions->push_back(osg::Vec3d(point.r * c, point.r * s, point.z));
       normals->push_back(osg::Vec3d(point.nr * c, point.nr * s, point.nz));
     }
   }
-  constexpr unsigned kRow = kAround + 1;
+  const auto around = static_cast<unsigned>(round.around), row_length = around + 1;
   for (unsigned row = 0; row + 1 < profile.size(); ++row) {
-    for (unsigned i = 0; i < kAround; ++i) {
-      const unsigned low = row * kRow + i, high = low + kRow;
+    for (unsigned i = 0; i < around; ++i) {
+      const unsigned low = row * row_length + i, high = low + row_length;
       for (const unsigned corner : {low, low + 1, high + 1, low, high + 1, high}) triangles->push_back(corner);
     }
   }
@@ -78,11 +76,11 @@ osg::ref_ptr<osg::Geometry> boxGeometry(const Vec3& size, const Vec3& color) {
   return assemble(positions, normals, triangles, color);
 }
 
-osg::ref_ptr<osg::Geometry> sphereGeometry(double radius, const Vec3& color) {
-  return capsuleGeometry(radius, 0, color);
+osg::ref_ptr<osg::Geometry> sphereGeometry(double radius, const Vec3& color, const Roundness& round) {
+  return capsuleGeometry(radius, 0, color, round);
 }
 
-osg::ref_ptr<osg::Geometry> cylinderGeometry(double radius, double length, const Vec3& color) {
+osg::ref_ptr<osg::Geometry> cylinderGeometry(double radius, double length, const Vec3& color, const Roundness& round) {
   const double half = length / 2;
   return revolve({{0, -half, 0, -1},
                   {radius, -half, 0, -1},
@@ -90,15 +88,15 @@ osg::ref_ptr<osg::Geometry> cylinderGeometry(double radius, double length, const
                   {radius, half, 1, 0},
                   {radius, half, 0, 1},
                   {0, half, 0, 1}},
-                 color);
+                 color, round);
 }
 
-osg::ref_ptr<osg::Geometry> capsuleGeometry(double radius, double length, const Vec3& color) {
+osg::ref_ptr<osg::Geometry> capsuleGeometry(double radius, double length, const Vec3& color, const Roundness& round) {
   constexpr double kRight = std::numbers::pi / 2;
   std::vector<ProfilePoint> profile;
-  appendArc(profile, radius, -length / 2, -kRight, 0);
-  appendArc(profile, radius, length / 2, 0, kRight);
-  return revolve(profile, color);
+  appendArc(profile, radius, -length / 2, -kRight, 0, round.arc);
+  appendArc(profile, radius, length / 2, 0, kRight, round.arc);
+  return revolve(profile, color, round);
 }
 
 osg::ref_ptr<osg::Geometry> meshGeometry(const ShadedMesh& mesh, const Vec3& color) {
@@ -111,23 +109,23 @@ osg::ref_ptr<osg::Geometry> meshGeometry(const ShadedMesh& mesh, const Vec3& col
   return assemble(positions, normals, triangles, color);
 }
 
-osg::ref_ptr<osg::Geometry> unitShaft(const Vec3& color) {
-  return revolve({{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0}, {1, 1, 1, 0}, {1, 1, 0, 1}, {0, 1, 0, 1}}, color);
+osg::ref_ptr<osg::Geometry> unitShaft(const Vec3& color, const Roundness& round) {
+  return revolve({{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, 1, 0}, {1, 1, 1, 0}, {1, 1, 0, 1}, {0, 1, 0, 1}}, color, round);
 }
 
-osg::ref_ptr<osg::Geometry> unitConeUp(const Vec3& color) {
+osg::ref_ptr<osg::Geometry> unitConeUp(const Vec3& color, const Roundness& round) {
   const double n = std::numbers::sqrt2 / 2;
-  return revolve({{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, n, n}, {0, 1, n, n}}, color);
+  return revolve({{0, 0, 0, -1}, {1, 0, 0, -1}, {1, 0, n, n}, {0, 1, n, n}}, color, round);
 }
 
-osg::ref_ptr<osg::Geometry> unitFrictionCone(const Vec3& color) {
+osg::ref_ptr<osg::Geometry> unitFrictionCone(const Vec3& color, const Roundness& round) {
   const double n = std::numbers::sqrt2 / 2;
-  return revolve({{0, 0, n, -n}, {1, 1, n, -n}}, color);
+  return revolve({{0, 0, n, -n}, {1, 1, n, -n}}, color, round);
 }
 
-osg::ref_ptr<osg::Geometry> unitRim(const Vec3& color) {
+osg::ref_ptr<osg::Geometry> unitRim(const Vec3& color, const Roundness& round) {
   // a thin band: unlike GL lines it has the same width on every driver
-  return revolve({{0.985, 0.985, 0, -1}, {1, 1, 0, -1}}, color);
+  return revolve({{0.985, 0.985, 0, -1}, {1, 1, 0, -1}}, color, round);
 }
 
 }  // namespace presa::view

@@ -88,6 +88,10 @@ void Guides::showArrow(std::int32_t body, const std::vector<Pose>& X_WB, double 
   arrow_->setMatrix(toOsg(Pose{X_WB[i].p + above, Quat::Identity()}));
 }
 
+bool Guides::shown() const {
+  return place_.place->getNodeMask() != 0 || missing_.place->getNodeMask() != 0 || arrow_->getNodeMask() != 0;
+}
+
 void Guides::update(const Guidance& guidance, const std::vector<Pose>& X_WB, double time) {
   const bool hint = guidance.hint_goal != kNoGoal;
   const std::int32_t goal = hint ? guidance.hint_goal : guidance.held ? guidance.goal : kNoGoal;

@@ -14,6 +14,8 @@ class Guides {
  public:
   Guides(const Scene& scene, BodyNodes& bodies);
   osg::Group* root() { return root_; }
+  /// Whether any mark is shown; marks pulsate.
+  bool shown() const;
   void update(const Guidance& guidance, const std::vector<Pose>& X_WB, double time);
 
  private:

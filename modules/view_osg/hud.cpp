@@ -71,7 +71,9 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   osg::StateSet* state = content_->getOrCreateStateSet();
   state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
   state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-  state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
+  // over a transparent picture, the result is multiplied by its opacity
+  state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA,
+                                                 osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
   // draw in the order of the graph: panels first, then their text (set on the camera itself, this would sort its
   // parent)
   state->setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);

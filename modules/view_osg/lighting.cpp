@@ -10,7 +10,7 @@ namespace {
 
 const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
 
-constexpr double kKeeps = 1.2;  // coverage margin of the maps, relative to their radius
+constexpr double kKeeps = 1.2;  // kept maps reach beyond the focus by this factor
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) {
 
 void Lighting::setQuality(const LightQuality& quality) {
   quality_ = quality;
-  frame_ = 0;
+  due_ = true;
   taps_->set(quality.taps);
   for (Map& map : maps_) {
     map.depth->setTextureSize(quality.map_size, quality.map_size);
@@ -45,8 +45,10 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
   depth->setShadowCompareFunc(osg::Texture::LEQUAL);
   depth->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR);
   depth->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  depth->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
-  depth->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+  // nothing is in the way beyond the map
+  depth->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
+  depth->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
+  depth->setBorderColor({1, 1, 1, 1});
 
   osg::ref_ptr<osg::Camera> camera = new osg::Camera;
   camera->setName(std::string(name) + " map");
@@ -70,26 +72,40 @@ void Lighting::addMap(const char* name, int unit, const Vec3& direction, const V
   maps_.push_back({camera, depth, matrix, direction, up});
 }
 
-void Lighting::setFocus(const Vec3& center, double radius) {
-  // a quick light keeps its maps as long as they cover the focus
-  const bool covered = (center - center_).norm() + radius < kKeeps * radius_ && radius > radius_ / 2;
-  if (quality_.sky_every > 1 && frame_ > 0 && covered) return;
+bool Lighting::setFocus(const Vec3& center, double radius) {
+  const bool covered = (center - center_).norm() + radius < radius_ && radius > radius_ / 2;
+  if (quality_.kept && covered) return false;
   center_ = center;
-  radius_ = radius;
-  frame_ = 0;
+  radius_ = quality_.kept ? kKeeps * radius : radius;
+  due_ = true;
   for (Map& map : maps_) {
-    map.camera->setViewMatrixAsLookAt(toOsg(Vec3(center + 2 * radius * map.direction)), toOsg(center), toOsg(map.up));
-    map.camera->setProjectionMatrixAsOrtho(-radius, radius, -radius, radius, 0, 4 * radius);
+    map.camera->setViewMatrixAsLookAt(toOsg(Vec3(center + 2 * radius_ * map.direction)), toOsg(center), toOsg(map.up));
+    map.camera->setProjectionMatrixAsOrtho(-radius_, radius_, -radius_, radius_, 0, 4 * radius_);
     const osg::Matrixd to_texture = osg::Matrixd::translate(1, 1, 1) * osg::Matrixd::scale(0.5, 0.5, 0.5);
     map.matrix->set(osg::Matrixf(map.camera->getViewMatrix() * map.camera->getProjectionMatrix() * to_texture));
   }
+  return true;
+}
+
+std::vector<Vec3> Lighting::directions() const {
+  std::vector<Vec3> all;
+  for (const Map& map : maps_) all.push_back(map.direction);
+  return all;
+}
+
+bool Lighting::setGlow(double share) {
+  float before = 0;
+  glow_->get(before);
+  const auto now = static_cast<float>(share);
+  if (now == before) return false;
+  glow_->set(now);
+  return true;
 }
 
 void Lighting::beginFrame(bool moved) {
-  const bool fine = quality_.sky_every == 1, first = frame_ == 0;
-  maps_.front().camera->setNodeMask(fine || first || moved ? ~0U : 0U);
-  maps_.back().camera->setNodeMask(fine || frame_ % quality_.sky_every == 0 ? ~0U : 0U);
-  ++frame_;
+  const bool drawn = !quality_.kept || due_ || moved;
+  for (Map& map : maps_) map.camera->setNodeMask(drawn ? ~0U : 0U);
+  due_ = false;
 }
 
 void Lighting::setPictureSize(int width, int height) {

@@ -11,12 +11,12 @@ namespace presa::view {
 
 /// Quality settings of the lighting.
 struct LightQuality {
-  int taps;       ///< shadow samples per pixel and map, at most 16
-  int map_size;   ///< [pixel]
-  int sky_every;  ///< frames between updates of the sky map
+  int taps;      ///< shadow samples per pixel and map, at most 16
+  int map_size;  ///< [pixel]
+  bool kept;     ///< maps are kept while nothing moves and they cover the focus
 };
-inline constexpr LightQuality kFineLight{16, 2048, 1};
-inline constexpr LightQuality kQuickLight{1, 512, 12};  ///< for software rendering
+inline constexpr LightQuality kFineLight{16, 2048, false};
+inline constexpr LightQuality kQuickLight{1, 512, true};  ///< for software rendering
 
 /// Two depth maps: from the key light (shadow) and from straight above (visibility of the sky at each point). Both
 /// cover a sphere around the subject.
@@ -27,11 +27,13 @@ class Lighting {
 
   /// Cameras to be drawn before the picture.
   osg::Group* passes() { return passes_; }
-  void setFocus(const Vec3& center, double radius);
-  /// 0: daylight; 1: evening sun.
-  void setGlow(double share) { glow_->set(static_cast<float>(share)); }
-  /// Starts a frame and draws the maps that are due. A quick light updates the shadow only when something `moved`, and
-  /// the sky map occasionally.
+  /// True if the maps were placed anew.
+  bool setFocus(const Vec3& center, double radius);
+  /// Directions towards the lights, unit vectors.
+  std::vector<Vec3> directions() const;
+  /// 0: daylight; 1: evening sun. True if that is a change.
+  bool setGlow(double share);
+  /// Starts a frame and draws the maps; a quick light only if something `moved`.
   void beginFrame(bool moved);
   void setQuality(const LightQuality& quality);
   /// Size of the picture [pixel].
@@ -51,7 +53,7 @@ class Lighting {
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
   std::vector<Map> maps_;
   LightQuality quality_ = kFineLight;
-  int frame_ = 0;  // frames since the maps were placed
+  bool due_ = true;  // the maps are not drawn yet
   Vec3 center_ = Vec3::Zero();
   double radius_ = 0;
   osg::ref_ptr<osg::Uniform> picture_size_, taps_, glow_ = new osg::Uniform("glow", 0.0F);

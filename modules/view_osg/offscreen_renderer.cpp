@@ -1,6 +1,7 @@
 #include <osg/GLObjects>
 #include <osgViewer/Viewer>
 
+#include "modules/view_osg/follow_camera.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/gl_context_egl.h"
 #include "modules/view_osg/osg_convert.h"
@@ -37,8 +38,8 @@ class OffscreenRenderer final : public Renderer {
   }
 
   void render() override {
-    const CameraPose pose = frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight,
-                                         chooseHeading(picture_.subject()), picture_.usedWidth());
+    const CameraPose pose = follow_.at(picture_.time(), picture_.subject(), static_cast<double>(kWidth) / kHeight,
+                                       picture_.usedWidth(), false);
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
     viewer_.frame();
   }
@@ -52,6 +53,7 @@ class OffscreenRenderer final : public Renderer {
 
  private:
   Picture& picture_;
+  FollowCamera follow_;  // in films
   EglContext context_;
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;

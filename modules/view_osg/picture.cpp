@@ -1,6 +1,7 @@
 #include "modules/view_osg/picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "modules/view_osg/grain.h"
 
@@ -9,8 +10,8 @@ namespace {
 
 constexpr double kFloorRadius = 1.2;  ///< minimum radius of the floor [m]
 constexpr double kSunset = 2;         ///< time of the change to evening sun after completion [s]
-constexpr double kMoves = 0.0005;     ///< smaller motions do not update the shadow [m]
-constexpr double kArm = 0.05;         ///< lever arm at which rotations count as motions [m]
+constexpr double kSeen = 3e-4;        ///< smaller motions are below a quarter of a pixel, in radii of the subject
+constexpr double kShades = 8;         ///< shades of a fingertip per newton
 constexpr double kFloorReach = 10;    ///< radius of the floor, in radii of the subject
 constexpr double kGround = 0.36;      ///< ground shown below an assembly, relative to its height
 constexpr double kShadows = 1.0;      ///< extent of shadows with software rendering, in radii of the subject
@@ -50,10 +51,14 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
                           neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
-  space_->addChild(makeBackground());
+  const osg::ref_ptr<osg::Node> background = makeBackground();
+  space_->addChild(background);
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
   space_->addChild(floor_);
+  still_ = {lighting_.passes(), bodies_.root(), background, floor_};
+  watch_.emplace(bodies_, lighting_.directions(), lowestPoint(*world_));
+  root_->getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 1)));
   root_->addChild(space_);
   root_->addChild(hud_.camera());
   setQuick(false);
@@ -84,8 +89,10 @@ void Picture::setQuick(bool quick) {
   quick_ = quick;
   lighting_.setQuality(quick ? kQuickLight : kFineLight);
   bodies_.setQuick(quick);
+  glyphs_.setQuick(quick);
   floor_->removeChildren(0, floor_->getNumChildren());
   floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_, kShadows * floor_radius_ / kFloorReach, quick));
+  watch_->measureShapes();
 }
 
 void Picture::setSize(int width, int height) { lighting_.setPictureSize(width, height); }
@@ -115,32 +122,36 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
   }
 }
 
-/// Whether something that casts a shadow has moved since this last returned true.
-bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& fingers) {
-  std::vector<Vec3> now;
-  for (const Pose& X_WB : frame.X_WB) {
-    now.push_back(X_WB.p);
-    now.push_back(X_WB.p + kArm * (X_WB.q * Vec3(0.6, 0.64, 0.48)));
+/// Notes what differs from the last frame. True if a shadow moved.
+bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fingers, const ShownParts& parts,
+                      double radius) {
+  if (std::exchange(drawn_parts_, parts) != parts) watch_->changeAll();
+  std::vector<osg::Node*> others;
+  for (unsigned i = 0; i < space_->getNumChildren(); ++i)
+    if (osg::Node* const part = space_->getChild(i); std::ranges::find(still_, part) == still_.end())
+      others.push_back(part);
+  std::vector<double> appearance;
+  for (const FingerView& finger : fingers) {
+    const double shades = finger.touches() ? std::round(kShades * finger.normal_force) : -1;
+    appearance.insert(appearance.end(), {static_cast<double>(finger.mode), shades});
   }
-  for (const FingerView& finger : fingers) now.push_back(finger.p_WP);
-  double max = now.size() == shadowed_.size() ? 0 : kMoves;
-  for (std::size_t i = 0; i < now.size() && max < kMoves; ++i) max = std::max(max, (now[i] - shadowed_[i]).norm());
-  if (max < kMoves) return false;
-  shadowed_ = std::move(now);
-  return true;
+  if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
+  return watch_->update({frame.X_WB, *glyphs_.casters(), others, appearance, kSeen * radius});
 }
 
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   std::vector<FingerView> fingers = fingerViews(*world_, frame);
   if (screen_ && !screen_->measured) fingers = withoutMeasured(std::move(fingers));
   const ShownParts parts = partsNow();
+  time_ = frame.time;
   bodies_.setPoses(frame.X_WB);
   bodies_.show(parts[ShownPart::kVisual]);
   glyphs_.update(fingers);
   if (guides_ && frame.guidance) {
     guides_->update(*frame.guidance, frame.X_WB, frame.time);
     const Guidance& told = *frame.guidance;
-    lighting_.setGlow(told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0);
+    const double glow = told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0;
+    if (lighting_.setGlow(glow)) watch_->changeAll();
   }
   glyphs_.show(parts);
   overlays_.update(parts, frame.X_WB, frame.asleep);
@@ -152,8 +163,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   plots_.update(parts[ShownPart::kPlots]);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);
-  lighting_.beginFrame(moved(frame, fingers));
+  if (lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius)) watch_->changeAll();
+  lighting_.beginFrame(changed(frame, fingers, parts, focus.radius));
 }
 
 }  // namespace presa::view

@@ -6,6 +6,7 @@
 #include "framework/scene/run_options.h"
 #include "modules/view_osg/body_card.h"
 #include "modules/view_osg/camera.h"
+#include "modules/view_osg/change_watch.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
 #include "modules/view_osg/guides.h"
@@ -40,6 +41,10 @@ class Picture {
   /// What a participant sees from the next frame on; only in runs with RunOptions::participant.
   void setScreen(const ParticipantScreen& screen);
   const BodyNodes& bodies() const { return bodies_; }
+  /// Simulated time of the frame [s].
+  double time() const { return time_; }
+  /// What differs from the frame before the last call.
+  Changes takeChanges() { return watch_->take(); }
   /// Selects the body shown in the card; none hides it.
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// The balls that must be in the picture: free bodies (all bodies when none is free) and fingers.
@@ -53,7 +58,7 @@ class Picture {
 
  private:
   ShownParts partsNow() const;
-  bool moved(const ViewFrame& frame, const std::vector<FingerView>& fingers);
+  bool changed(const ViewFrame& frame, const std::vector<FingerView>& fingers, const ShownParts& parts, double radius);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
   std::shared_ptr<const World> world_;
@@ -66,6 +71,7 @@ class Picture {
   FeltRelief relief_;
   std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
+  std::vector<osg::Node*> still_;  // parts of the space that do not move, and the bodies
   Lighting lighting_;
   Hud hud_;
   BodyCard card_;
@@ -78,7 +84,9 @@ class Picture {
   Vec3 floor_center_ = Vec3::Zero();
   double floor_radius_ = 0;
   bool quick_ = false;
-  std::vector<Vec3> shadowed_;
+  double time_ = 0;
+  std::optional<ChangeWatch> watch_;
+  ShownParts drawn_parts_;
 };
 
 }  // namespace presa::view

@@ -37,7 +37,7 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
   const Geometry* shown = shownGeometry(body);
   if (shown == nullptr) return nullptr;
   if (std::holds_alternative<Compound>(shown->shape))
-    return physicsNode(body, meshes, world.scene.materialOf(body).color);
+    return physicsNode(body, meshes, world.scene.materialOf(body).color, quick ? kQuick : kFine);
   const TriMesh* mesh = shownMesh(body, meshes);
   if (quick && mesh != nullptr && meshes.haptic && meshes.haptic->triangles.size() < mesh->triangles.size()) {
     shown = &*body.haptic;
@@ -48,19 +48,11 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
     fewer = fewerFacets(*mesh, kQuickTolerance);
     mesh = &fewer;
   }
-  const auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color);
+  const auto geometry = surfaceOf(shown->shape, mesh, world.scene.materialOf(body).color, quick ? kQuick : kFine);
   if (!geometry) return nullptr;
   osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
   X_BG->addChild(geometry);
   return X_BG;
-}
-
-/// Lowest point of the drawn bodies at the start [m]; 0 for an empty scene.
-double lowestPoint(const World& world) {
-  BodyNodes bodies(world);
-  osg::ComputeBoundsVisitor bounds;
-  bodies.root()->accept(bounds);
-  return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
 }
 
 /// The fixed body with the texture earth, around which the floor continues; null if none.
@@ -87,24 +79,26 @@ const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes) {
   return meshes.physics.get();
 }
 
-osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color) {
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color,
+                                      const Roundness& round) {
   return std::visit(
-      Overload{[&](const MeshRef&) {
-                 return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color)
-                             : osg::ref_ptr<osg::Geometry>();
-               },
-               [&](const Box& box) { return boxGeometry(box.size, color); },
-               [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color); },
-               [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color); },
-               [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color); },
-               [](const Compound&) { return osg::ref_ptr<osg::Geometry>(); }},
+      Overload{
+          [&](const MeshRef&) {
+            return mesh ? meshGeometry(shadeWithCreases(*mesh, kCreaseAngle), color) : osg::ref_ptr<osg::Geometry>();
+          },
+          [&](const Box& box) { return boxGeometry(box.size, color); },
+          [&](const Sphere& sphere) { return sphereGeometry(sphere.radius, color, round); },
+          [&](const Cylinder& cylinder) { return cylinderGeometry(cylinder.radius, cylinder.length, color, round); },
+          [&](const Capsule& capsule) { return capsuleGeometry(capsule.radius, capsule.length, color, round); },
+          [](const Compound&) { return osg::ref_ptr<osg::Geometry>(); }},
       shape);
 }
 
-osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color) {
+osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color,
+                                     const Roundness& round) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   for (const PhysicsShape& shape : physicsShapes(body, meshes)) {
-    const auto surface = surfaceOf(*shape.shape, shape.mesh, color);
+    const auto surface = surfaceOf(*shape.shape, shape.mesh, color, round);
     if (!surface) continue;
     osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shape.X_BG));
     X_BG->addChild(surface);
@@ -126,13 +120,9 @@ BodyNodes::BodyNodes(const World& world) : world_(world) {
     const Body& body = bodies[i];
     osg::ref_ptr<osg::MatrixTransform> X_WB = new osg::MatrixTransform(toOsg(body.X_WB));
     X_WB->setName(body.name);
-    // fixed bodies are usually supports: a grid shows their scale
-    const Material::Texture texture = world.scene.materialOf(body).texture;
-    const bool grid = body.fixed && texture == Material::Texture::kNone;
-    X_WB->getOrCreateStateSet()->addUniform(new osg::Uniform("grid_strength", grid ? 1.0F : 0.0F));
     setGrain(*X_WB->getOrCreateStateSet(), i);
     if (&body == earthOf(world.scene)) X_WB->setNodeMask(0);  // replaced by the floor
-    textures_.push_back(texture);
+    textures_.push_back(world.scene.materialOf(body).texture);
     const osg::ref_ptr<osg::Node> shape = makeShape(world, i, false);
     if (shape) X_WB->addChild(shape);
     const osg::BoundingSphere bound = shape ? shape->getBound() : osg::BoundingSphere();
@@ -144,12 +134,15 @@ BodyNodes::BodyNodes(const World& world) : world_(world) {
 }
 
 void BodyNodes::setQuick(bool quick) {
-  std::map<Material::Texture, osg::ref_ptr<osg::Program>> programs;
+  std::map<std::pair<Material::Texture, bool>, osg::ref_ptr<osg::Program>> programs;
   for (std::size_t i = 0; i < transforms_.size(); ++i) {
-    osg::ref_ptr<osg::Program>& program = programs[textures_[i]];
-    if (!program) program = shaders::body(textures_[i], quick);
     osg::StateSet* state = transforms_[i]->getOrCreateStateSet();
+    const bool grid = world_.scene.bodies[i].fixed && textures_[i] == Material::Texture::kNone;
+    osg::ref_ptr<osg::Program>& program = programs[{textures_[i], grid}];
+    if (!program) program = quick ? shaders::quickBody(textures_[i], grid) : shaders::body(textures_[i]);
     state->setAttributeAndModes(program);
+    // fixed bodies are usually supports: a grid shows their scale
+    state->getOrCreateUniform("grid_strength", osg::Uniform::FLOAT)->set(grid ? 1.0F : 0.0F);
     // stones are closed, so their back faces are never visible
     if (quick && textures_[i] != Material::Texture::kNone)
       state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
@@ -159,6 +152,13 @@ void BodyNodes::setQuick(bool quick) {
 
 void BodyNodes::setPoses(const std::vector<Pose>& X_WB) {
   for (std::size_t i = 0; i < transforms_.size() && i < X_WB.size(); ++i) transforms_[i]->setMatrix(toOsg(X_WB[i]));
+}
+
+double lowestPoint(const World& world) {
+  BodyNodes bodies(world);
+  osg::ComputeBoundsVisitor bounds;
+  bodies.root()->accept(bounds);
+  return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
 }
 
 std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray) const {
@@ -226,11 +226,12 @@ osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double
   // with software rendering only the inner disc gets shadows
   const double shaded = quick ? std::min(shadows, radius) : radius;
   osg::ref_ptr<osg::Geometry> disc = revolve({{shaded, middle.z(), 0, 1}, {0, middle.z(), 0, 1}}, color);
-  disc->getOrCreateStateSet()->setAttributeAndModes(shaders::floor(texture, quick, false));
+  disc->getOrCreateStateSet()->setAttributeAndModes(quick ? shaders::quickFloor(texture, false)
+                                                          : shaders::floor(texture));
   floor->addChild(disc);
   if (shaded < radius) {
     osg::ref_ptr<osg::Geometry> ring = revolve({{radius, middle.z(), 0, 1}, {shaded, middle.z(), 0, 1}}, color);
-    ring->getOrCreateStateSet()->setAttributeAndModes(shaders::floor(texture, quick, true));
+    ring->getOrCreateStateSet()->setAttributeAndModes(shaders::quickFloor(texture, true));
     floor->addChild(ring);
   }
   osg::StateSet* state = floor->getOrCreateStateSet();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/scene/world.h"
+#include "modules/view_osg/geometry_nodes.h"
 
 namespace presa::view {
 
@@ -18,6 +19,7 @@ class BodyNodes {
   void setQuick(bool quick);
   /// Poses in the order of Scene::bodies.
   void setPoses(const std::vector<Pose>& X_WB);
+  std::size_t count() const { return transforms_.size(); }
   /// The drawn shape of a body in its frame; null if none. It may be used in other places, too.
   osg::Node* shape(std::size_t body) {
     return transforms_[body]->getNumChildren() > 0 ? transforms_[body]->getChild(0) : nullptr;
@@ -47,10 +49,15 @@ const Geometry* shownGeometry(const Body& body);
 const TriMesh* shownMesh(const Body& body, const BodyMeshes& meshes);
 
 /// A shape in its own frame; null for a missing mesh.
-osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color);
+osg::ref_ptr<osg::Geometry> surfaceOf(const Shape& shape, const TriMesh* mesh, const Vec3& color,
+                                      const Roundness& round = kFine);
 
 /// All shapes of a body's physics geometry, in the body frame.
-osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color);
+osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes, const Vec3& color,
+                                     const Roundness& round = kFine);
+
+/// Height of the floor of a scene without earth, and the lowest point of its drawn bodies at the start [m].
+double lowestPoint(const World& world);
 
 /// A rectangle over the whole picture, from (-1, -1) to (1, 1), for shaders with positions in clip space; texture
 /// coordinates from 0 to 1. `rows`: number of subdivisions in height.

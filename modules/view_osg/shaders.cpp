@@ -25,11 +25,12 @@ void main() {
 
 // colour per vertex: software rendering has no time for powers at each pixel of the sky
 constexpr const char* kBackgroundVertex = R"(#version 130
-out vec3 color;
+uniform vec2 crop;  // lower edge and height of the drawn rows, as shares of the picture's height
+out vec4 color;
 vec3 skyColor(float height);
 vec3 toDisplay(vec3 linear);
 void main() {
-  color = toDisplay(skyColor(gl_Vertex.y * 0.5 + 0.5));
+  color = vec4(toDisplay(skyColor(crop.x + crop.y * (gl_Vertex.y * 0.5 + 0.5))), 1.0);
   gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
 }
 )";
@@ -44,16 +45,9 @@ vec3 skyColor(float height) {
 vec3 toDisplay(vec3 linear) {
   // hue stays: the brightest channel is bent towards 1, the others follow
   float top = max(max(linear.r, linear.g), max(linear.b, 1e-6));
-#ifdef QUICK
-  // within 0.015 of what follows; roots are cheap, powers are not
-  float over = max(top - 0.6, 0.0);
-  vec3 root = sqrt(linear * ((min(top, 0.6) + over / (1.0 + 2.5 * over)) / top));
-  return 0.85 * root + 0.15 * sqrt(root);
-#else
   float bent = top < 0.6 ? top : 1.0 - 0.4 * exp(-(top - 0.6) / 0.4);
   vec3 c = linear * (bent / top);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-#endif
 }
 )";
 
@@ -84,19 +78,8 @@ const vec2 kTaps[16] = vec2[](
 
 // share of light that arrives; blur [m] is the half width of the penumbra. Samples lie in the surface's own plane, so
 // that a slanted surface does not shade itself.
-#ifdef OPEN
-float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) { return 1.0; }
-#elif defined(QUICK)
 float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 c = (to_map * vec4(p, 1.0)).xyz;
-  vec2 inside = step(vec2(0.0), c.xy) * step(c.xy, vec2(1.0));
-  c.z = min(c.z, 1.0) * inside.x * inside.y;  // beyond the map nothing is in the way
-  return texture(map, c);
-}
-#else
-float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
-  vec3 c = (to_map * vec4(p, 1.0)).xyz;
-  if (any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)))) return 1.0;
   float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   vec3 side = normalize(abs(n.z) < 0.7 ? cross(n, vec3(0, 0, 1)) : cross(n, vec3(1, 0, 0)));
   vec3 a = mat3(to_map) * (side * blur), b = mat3(to_map) * (cross(n, side) * blur);
@@ -105,7 +88,6 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   for (int i = 0; i < taps; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
   return sum / float(taps);
 }
-#endif
 
 float keyShare(vec3 n, vec3 p) {
   float facing = dot(n, key_direction);
@@ -150,9 +132,6 @@ uniform sampler2D ground_map;
 // lengths in metres: clouds over a hand's width, grain of millimetres
 vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
   vec4 cloud = texture(grain_map, p * 5.5);
-#ifdef QUICK
-  return albedo * (0.48 + 0.70 * cloud.r) * mix(vec3(1.0), vec3(0.78, 0.66, 0.50), 0.5 * cloud.a);
-#else
   float fine = texture(grain_map, p * 42.0 + 0.3).r;
   float pit = smoothstep(0.42, 0.22, texture(grain_map, p * 17.0 + 0.7).r);
   albedo *= 0.50 + 0.72 * cloud.r;
@@ -166,18 +145,13 @@ vec3 stone(vec3 albedo, vec3 p, inout vec3 n, vec3 position_W) {
   vec3 slope = sign(area) * (dFdx(height) * r1 + dFdy(height) * r2);
   n = normalize(max(abs(area), 1e-12) * n - slope);
   return albedo;
-#endif
 }
 
 vec3 earth(vec3 albedo, vec3 p) {
   vec3 near = texture(ground_map, 0.83 * p.xy).rgb;
-#ifdef QUICK
-  return albedo * 4.0 * near * near;
-#else
   // turned and larger once more, so that the tile does not show
   float far = texture(ground_map, 0.31 * vec2(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y)).g;
   return albedo * 4.0 * near * near * (0.55 + 1.8 * far * far);
-#endif
 }
 )";
 
@@ -217,52 +191,75 @@ void main() {
 }
 )";
 
-// Earth for software rendering: light and colour are combined in display space, where the product is nearly the same,
-// so that no square root is needed per pixel.
-constexpr const char* kQuickEarthVertex = R"(#version 130
+// Surfaces for software rendering: light is computed at the vertices, for a point in the sun, in its shadow, and under a
+// cover, and combined with colours in display space, where the product is nearly the same. No powers or roots per pixel.
+constexpr const char* kQuickVertex = R"(#version 130
 uniform mat4 osg_ViewMatrixInverse;
+uniform mat4 key_matrix;
+uniform mat4 sky_matrix;
 uniform vec3 key_direction;
-out vec3 position_W;
+uniform vec3 grain_offset;
 out vec3 sunny, shaded, closed;
-out vec2 tile;
+out vec3 key_at, sky_at;  // in the maps
+out vec3 at;              // of the texture
 vec3 toDisplay(vec3 linear);
 vec3 daylight(vec3 n, float key, float open);
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
-  position_W = (osg_ViewMatrixInverse * eye).xyz;
-  vec3 up = vec3(0, 0, 1);
-  sunny = 2.0 * toDisplay(gl_Color.rgb * daylight(up, key_direction.z, 1.0));
-  shaded = 2.0 * toDisplay(gl_Color.rgb * daylight(up, 0.0, 1.0));
-  closed = 2.0 * toDisplay(gl_Color.rgb * daylight(up, 0.0, 0.28));
-  tile = 0.83 * position_W.xy;
+  vec3 p = (osg_ViewMatrixInverse * eye).xyz;
+  vec3 n = normalize(mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal));
+  float key = max(dot(n, key_direction), 0.0);
+  vec3 half_way = normalize(key_direction + normalize(osg_ViewMatrixInverse[3].xyz - p));
+  float shine = GLOSS > 0.0 ? 0.5 * GLOSS * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
+  sunny = toDisplay(gl_Color.rgb * daylight(n, key, 1.0) + vec3(shine));
+  shaded = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0));
+  closed = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
+  key_at = (key_matrix * vec4(p + n * (0.0008 + 0.0015 * (1.0 - key)), 1.0)).xyz;
+  sky_at = (sky_matrix * vec4(p + n * 0.0015, 1.0)).xyz;
+  at = GRAIN == 1 ? gl_Vertex.xyz + grain_offset : p;
   gl_Position = gl_ProjectionMatrix * eye;
 }
 )";
 
-constexpr const char* kQuickEarth = R"(#version 130
-uniform sampler2D ground_map;
+constexpr const char* kQuickSurface = R"(#version 130
 uniform sampler2DShadow key_map;
 uniform sampler2DShadow sky_map;
-uniform mat4 key_matrix;
-uniform mat4 sky_matrix;
+uniform sampler3D grain_map;
+uniform sampler2D ground_map;
+in vec3 sunny, shaded, closed;
+in vec3 key_at, sky_at;
+in vec3 at;
 uniform vec3 floor_center;
 uniform float floor_radius;
 uniform vec2 picture_size;
-in vec3 position_W;
-in vec3 sunny, shaded, closed;
-in vec2 tile;
 vec3 skyColor(float height);
-vec3 toDisplay(vec3 linear);
+float gridLine(vec2 p, float spacing, float strength) {
+  vec2 g = p / spacing;
+  vec2 width = fwidth(g);
+  vec2 away = abs(fract(g - 0.5) - 0.5) / max(width, vec2(1e-6));
+  vec2 line = clamp(1.3 - 0.87 * away, 0.0, 1.0) * clamp(1.5 - 3.3 * width, 0.0, 1.0);
+  return strength * max(line.x, line.y);
+}
 void main() {
-  vec3 color = texture(ground_map, tile).rgb;
 #ifdef OPEN
-  float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
-  gl_FragColor = vec4(mix(color * sunny, toDisplay(skyColor(gl_FragCoord.y / picture_size.y)), far), 1.0);
+  vec3 color = sunny;
 #else
-  vec4 p = vec4(position_W, 1.0);
-  float key = texture(key_map, (key_matrix * p).xyz), open = texture(sky_map, (sky_matrix * p).xyz);
-  gl_FragColor = vec4(color * mix(mix(closed, shaded, open), sunny, key), 1.0);
+  vec3 color = mix(mix(closed, shaded, texture(sky_map, sky_at)), sunny, texture(key_map, key_at));
 #endif
+#if GRAIN == 1
+  vec4 cloud = texture(grain_map, 5.5 * at);
+  color *= (0.70 + 0.39 * cloud.r) * mix(vec3(1.0), vec3(0.89, 0.82, 0.72), 0.5 * cloud.a);
+#elif GRAIN == 2
+  color *= 2.0 * texture(ground_map, 0.83 * at.xy).rgb;
+#elif GRID == 1
+  color *= 1.0 - 0.5 * max(gridLine(at.xy, 0.05, 0.30), gridLine(at.xy, 0.25, 0.50));
+#endif
+#ifdef OPEN
+  vec3 sky = sqrt(skyColor(gl_FragCoord.y / picture_size.y));  // within 0.015 of its display colour, with the next line
+  sky = 0.85 * sky + 0.15 * sqrt(sky);
+  color = mix(color, sky, smoothstep(0.15, 1.0, length(at.xy - floor_center.xy) / floor_radius));
+#endif
+  gl_FragColor = vec4(color, 1.0);
 }
 )";
 
@@ -279,94 +276,129 @@ void main() {
 }
 )";
 
-constexpr const char* kGlyph = R"(
-uniform float opacity;
-void main() {
-  float facing = 0.5 + 0.5 * dot(normalize(normal_W), normalize(to_eye_W + vec3(0, 0, length(to_eye_W))));
-  gl_FragColor = vec4(toDisplay(base.rgb * mix(0.45, 1.25, facing)), opacity);
-}
-)";
-
-constexpr const char* kCone = R"(
+// Small parts of smooth colour: computed at the vertices.
+constexpr const char* kPlainVertex = R"(#version 130
+uniform mat4 osg_ViewMatrixInverse;
 uniform vec3 state_color;
 uniform float opacity;
+uniform float pressure;
+uniform vec3 key_direction;
+out vec4 color;
+vec3 toDisplay(vec3 linear);
+vec3 daylight(vec3 n, float key, float open);
+vec4 glyph(vec3 n, vec3 to_eye) {
+  float facing = 0.5 + 0.5 * dot(n, normalize(to_eye + vec3(0, 0, length(to_eye))));
+  return vec4(toDisplay(gl_Color.rgb * mix(0.45, 1.25, facing)), opacity);
+}
+vec4 cone(vec3 n, vec3 to_eye) {
+  float grazing = 1.0 - abs(dot(n, normalize(to_eye)));
+  return vec4(toDisplay(state_color * 1.5), opacity * mix(0.7, 1.8, grazing * grazing));
+}
+vec4 skin(vec3 n, vec3 to_eye) {
+  float rim = pow(1.0 - max(dot(n, normalize(to_eye)), 0.0), 2.2);
+  vec3 pad = mix(gl_Color.rgb, vec3(1.0, 0.10, 0.04), pressure);
+  vec3 albedo = mix(pad, state_color, 0.18 * (1.0 - pressure) + 0.72 * rim);
+  return vec4(toDisplay(albedo * daylight(n, max(dot(n, key_direction), 0.0), 1.0)), mix(0.50, 0.95, rim));
+}
 void main() {
-  vec3 n = normalize(normal_W);
-  float grazing = 1.0 - abs(dot(n, normalize(to_eye_W)));
-  gl_FragColor = vec4(toDisplay(state_color * 1.5), opacity * mix(0.7, 1.8, grazing * grazing));
+  vec4 eye = gl_ModelViewMatrix * gl_Vertex;
+  vec3 n = normalize(mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal));
+  color = COLOR(n, osg_ViewMatrixInverse[3].xyz - (osg_ViewMatrixInverse * eye).xyz);
+  gl_Position = gl_ProjectionMatrix * eye;
 }
 )";
 
-constexpr const char* kBackground = R"(#version 130
-in vec3 color;
-void main() { gl_FragColor = vec4(color, 1.0); }
+constexpr const char* kPlain = R"(#version 130
+in vec4 color;
+void main() { gl_FragColor = color; }
 )";
 
 constexpr const char* kCopyVertex = R"(#version 130
+uniform vec4 part;  // lower left corner and size, as shares of the picture
 out vec2 at;
 void main() {
-  at = gl_MultiTexCoord0.xy;
+  at = part.xy + part.zw * gl_MultiTexCoord0.xy;
   gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0);
 }
 )";
 
-constexpr const char* kCopy = R"(#version 130
-uniform sampler2D picture;
+// the head-up display is multiplied by its opacity already
+constexpr const char* kOverlay = R"(#version 130
+uniform sampler2D space;
+uniform sampler2D hud;
 in vec2 at;
-void main() { gl_FragColor = texture(picture, at); }
+void main() {
+  vec4 over = texture(hud, at);
+  gl_FragColor = vec4(texture(space, at).rgb * (1.0 - over.a) + over.rgb, 1.0);
+}
 )";
 
 /// `text` with definitions inserted after its first line, the version.
-osg::ref_ptr<osg::Shader> fragments(std::string text, const std::string& definitions) {
-  text.insert(text.find('\n') + 1, definitions);
-  return new osg::Shader(osg::Shader::FRAGMENT, text);
+std::string defined(std::string text, const std::string& definitions) {
+  return text.insert(text.find('\n') + 1, definitions);
 }
 
-osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material::Texture texture = {},
-                                   bool quick = false, bool open = false) {
+osg::ref_ptr<osg::Shader> fragments(const std::string& text, const std::string& definitions) {
+  return new osg::Shader(osg::Shader::FRAGMENT, defined(text, definitions));
+}
+
+/// Small parts whose colour is the function `color` of kPlainVertex.
+osg::ref_ptr<osg::Program> plain(const std::string& color) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName(color);
+  for (const char* part : {kSky, kDaylight}) program->addShader(new osg::Shader(osg::Shader::VERTEX, part));
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, defined(kPlainVertex, "#define COLOR " + color + "\n")));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlain));
+  return program;
+}
+
+std::string grainOf(Material::Texture texture) {
+  return "#define GRAIN " + std::to_string(static_cast<int>(texture)) + "\n";
+}
+
+osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material::Texture texture = {}) {
+  const bool plain = texture == Material::Texture::kNone;
+  const std::string definitions = grainOf(texture) + "#define GLOSS " + (plain ? "0.35" : "0.04") + "\n";
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
-  const std::string definitions = std::string(quick ? "#define QUICK\n" : "") +
-                                  (texture == Material::Texture::kNone ? "#define GLOSS 0.35\n"
-                                   : quick                             ? "#define GLOSS 0.0\n"
-                                                                       : "#define GLOSS 0.04\n") +
-                                  (open ? "#define OPEN\n" : "") +
-                                  ("#define GRAIN " + std::to_string(static_cast<int>(texture))) + "\n";
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
   for (const char* part : {kSky, kDaylight, kLight}) program->addShader(fragments(part, definitions));
-  if (texture != Material::Texture::kNone) program->addShader(fragments(kGrain, definitions));
+  if (!plain) program->addShader(fragments(kGrain, definitions));
   program->addShader(fragments(std::string(kSurfaceDeclarations) + main, definitions));
   return program;
 }
 
-osg::ref_ptr<osg::Program> quickEarth(bool open) {
+osg::ref_ptr<osg::Program> quickSurface(const char* name, Material::Texture texture, bool shiny, bool grid,
+                                        bool open = false) {
+  const std::string definitions = grainOf(texture) + "#define GLOSS " + (shiny ? "0.35" : "0.0") + "\n" +
+                                  (grid ? "#define GRID 1\n" : "") + (open ? "#define OPEN\n" : "");
   osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->setName("quick earth");
-  const std::string definitions = std::string("#define QUICK\n") + (open ? "#define OPEN\n" : "");
-  for (const char* part : {kSky, kDaylight, kQuickEarthVertex})
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, part));
-  for (const char* part : {kSky, kQuickEarth}) program->addShader(fragments(part, definitions));
+  program->setName(name);
+  for (const char* part : {kSky, kDaylight, kQuickVertex})
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, defined(part, definitions)));
+  for (const char* part : {kSky, kQuickSurface}) program->addShader(fragments(part, definitions));
   return program;
 }
 
 }  // namespace
 
-osg::ref_ptr<osg::Program> body(Material::Texture texture, bool quick) {
-  return surface("body", kBody, texture, quick);
+osg::ref_ptr<osg::Program> body(Material::Texture texture) { return surface("body", kBody, texture); }
+osg::ref_ptr<osg::Program> quickBody(Material::Texture texture, bool grid) {
+  return quickSurface("body", texture, texture == Material::Texture::kNone, grid);
 }
-osg::ref_ptr<osg::Program> floor(Material::Texture texture, bool quick, bool open) {
-  if (quick && texture == Material::Texture::kEarth) return quickEarth(open);
-  return surface("floor", kFloor, texture, quick, open);
+osg::ref_ptr<osg::Program> floor(Material::Texture texture) { return surface("floor", kFloor, texture); }
+osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open) {
+  return quickSurface("floor", texture, false, texture == Material::Texture::kNone, open);
 }
-osg::ref_ptr<osg::Program> skin() { return surface("skin", kSkin); }
-osg::ref_ptr<osg::Program> glyph() { return surface("glyph", kGlyph); }
-osg::ref_ptr<osg::Program> cone() { return surface("cone", kCone); }
+osg::ref_ptr<osg::Program> skin(bool quick) { return quick ? plain("skin") : surface("skin", kSkin); }
+osg::ref_ptr<osg::Program> glyph() { return plain("glyph"); }
+osg::ref_ptr<osg::Program> cone() { return plain("cone"); }
 
-osg::ref_ptr<osg::Program> copy() {
+osg::ref_ptr<osg::Program> overlay() {
   osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->setName("copy");
+  program->setName("overlay");
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kCopyVertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kCopy));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kOverlay));
   return program;
 }
 
@@ -375,7 +407,7 @@ osg::ref_ptr<osg::Program> background() {
   program->setName("background");
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kBackgroundVertex));
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kSky));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kBackground));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlain));
   return program;
 }
 

@@ -7,21 +7,27 @@
 /// sRGB at the end.
 namespace presa::view::shaders {
 
-/// Bodies: key light with soft shadow, sky light with soft occlusion. Uniform `grid`: > 0 draws lines on upward faces.
-/// `quick`: fewer samples, for software rendering.
-osg::ref_ptr<osg::Program> body(Material::Texture texture, bool quick);
-/// Floor: like a body, fading into the background with distance; `open`: without shadows.
-osg::ref_ptr<osg::Program> floor(Material::Texture texture, bool quick, bool open);
+/// Bodies: key light with soft shadow, sky light with soft occlusion. Uniform `grid_strength`: 1 draws lines on upward
+/// faces.
+osg::ref_ptr<osg::Program> body(Material::Texture texture);
+/// Floor: like a body, fading into the background with distance.
+osg::ref_ptr<osg::Program> floor(Material::Texture texture);
+/// For software rendering: light computed at the vertices, one sample of each shadow. `grid`: lines on all faces;
+/// `open`: the part of the floor that fades and has no shadows.
+osg::ref_ptr<osg::Program> quickBody(Material::Texture texture, bool grid);
+osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open);
 /// Fingertip: translucent skin, rim in the colour of the contact state (uniform `state_color`), pad redder with
 /// pressure (uniform `pressure`, 0 to 1).
-osg::ref_ptr<osg::Program> skin();
+osg::ref_ptr<osg::Program> skin(bool quick);
 /// HIP, arrow and links: plain colour with slight shading; uniform `opacity`.
 osg::ref_ptr<osg::Program> glyph();
 /// Friction cone: translucent, denser towards grazing view; uniform `state_color`.
 osg::ref_ptr<osg::Program> cone();
-/// Copies a texture (uniform `picture`); positions in clip space.
-osg::ref_ptr<osg::Program> copy();
-/// Vertical gradient behind everything.
+/// Puts the head-up display (texture `hud`, multiplied by its opacity) over the picture (`space`); positions in clip
+/// space.
+osg::ref_ptr<osg::Program> overlay();
+/// Vertical gradient behind everything; uniform `crop`: lower edge and height of the rows drawn, as shares of the
+/// picture's height.
 osg::ref_ptr<osg::Program> background();
 
 }  // namespace presa::view::shaders

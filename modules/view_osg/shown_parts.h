@@ -14,6 +14,7 @@ class ShownParts {
   /// The default plus `names`; a name with the prefix "no-" hides the part. Throws InputError E704 for an unknown part.
   explicit ShownParts(const std::vector<std::string>& names);
 
+  bool operator==(const ShownParts&) const = default;
   bool operator[](ShownPart part) const { return shown_[static_cast<std::size_t>(part)]; }
   void set(ShownPart part, bool shown) { shown_[static_cast<std::size_t>(part)] = shown; }
   void toggle(ShownPart part) { shown_[static_cast<std::size_t>(part)] = !(*this)[part]; }

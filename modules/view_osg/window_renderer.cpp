@@ -1,14 +1,14 @@
-#include <cmath>
 #include <osgUtil/RenderBin>
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
-#include "modules/view_osg/coarse_space.h"
+#include "modules/view_osg/follow_camera.h"
 #include "modules/view_osg/frame_budget.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/help_text.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/renderer.h"
+#include "modules/view_osg/retained_space.h"
 #include "modules/view_osg/window_context.h"
 #include "modules/view_osg/window_input.h"
 
@@ -16,7 +16,6 @@ namespace presa::view {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr double kFollowTime = 0.4;  ///< time constant of the camera [s]
 
 class WindowRenderer final : public Renderer {
  public:
@@ -27,7 +26,7 @@ class WindowRenderer final : public Renderer {
     window_ = window.context;
     if (window.software) {
       picture.setQuick(true);
-      coarse_.emplace(picture);
+      retained_.emplace(picture);
     }
     // front to back, so that hidden surfaces are not shaded
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
@@ -41,7 +40,7 @@ class WindowRenderer final : public Renderer {
     camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
     camera->setFinalDrawCallback(grabber_);
     viewer_.addEventHandler(input_);
-    viewer_.setSceneData(coarse_ ? coarse_->root() : picture.root());
+    viewer_.setSceneData(retained_ ? retained_->root() : picture.root());
     std::vector<std::pair<std::string, std::string>> help;
     for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
       help.emplace_back(line.keys, line.what);
@@ -69,13 +68,13 @@ class WindowRenderer final : public Renderer {
     const osg::Timer_t begin = osg::Timer::instance()->tick();
     draw();
     const double seconds = osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick());
-    if (coarse_ && budget_.add(seconds)) setSize(width_, height_, budget_.share());
+    if (retained_ && budget_.add(seconds)) setSize(width_, height_, budget_.share());
   }
   osg::ref_ptr<osg::Image> capture() override {
     if (closed()) return nullptr;
     setSize(width_, height_, 1);  // saved pictures have full resolution
     grabber_->arm();
-    draw();
+    draw(true);
     setSize(width_, height_, budget_.share());
     return grabber_->take();
   }
@@ -85,7 +84,8 @@ class WindowRenderer final : public Renderer {
   bool takePictureRequest() override { return std::exchange(input_->picture_requested, false); }
 
  private:
-  void draw() {
+  /// `now`: texts are up to date, too.
+  void draw(bool now = false) {
     viewer_.advance();
     viewer_.eventTraversal();
     const osg::Viewport& window = *viewer_.getCamera()->getViewport();
@@ -95,29 +95,24 @@ class WindowRenderer final : public Renderer {
     const CameraPose pose = camera_.pose();
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
     viewer_.updateTraversal();
+    const osg::Camera& camera = *viewer_.getCamera();
+    if (retained_)
+      retained_->prepare(camera.getViewMatrix() * camera.getProjectionMatrix(), viewer_.elapsedTime(), now);
     viewer_.renderingTraversals();
   }
   /// Size of the window, and fraction of the resolution at which bodies are drawn.
   void setSize(int width, int height, double share) {
     width_ = width, height_ = height, share_ = share;
     picture_.hud().setAspect(static_cast<double>(width) / height);
-    if (coarse_)
-      coarse_->setSize(width, height, share);
+    if (retained_)
+      retained_->setSize(width, height, share);
     else
       picture_.setSize(width, height);
   }
-  /// Keeps bodies and fingers in the picture, smoothly; at once on request.
+  /// Keeps bodies and fingers in the picture.
   void follow() {
-    const double now = viewer_.elapsedTime();
-    double share = 1 - std::exp(-(now - followed_at_) / kFollowTime);
-    followed_at_ = now;
-    if (std::exchange(input_->frame_requested, false)) {
-      heading_ = chooseHeading(picture_.subject());
-      share = 1;
-    }
-    camera_.approach(frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(), heading_,
-                                  picture_.usedWidth()),
-                     share);
+    camera_.set(follow_.at(viewer_.elapsedTime(), picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(),
+                           picture_.usedWidth(), std::exchange(input_->frame_requested, false)));
   }
 
   Picture& picture_;
@@ -125,9 +120,8 @@ class WindowRenderer final : public Renderer {
   CameraControl camera_{static_cast<double>(kWidth) / kHeight};
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<WindowInput> input_;
-  double heading_ = 0;
-  double followed_at_ = 0;
-  std::optional<CoarseSpace> coarse_;  // only with software rendering
+  FollowCamera follow_;
+  std::optional<RetainedSpace> retained_;  // only with software rendering
   FrameBudget budget_;
   int width_ = 0, height_ = 0;
   double share_ = 1;
