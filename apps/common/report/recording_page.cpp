@@ -137,11 +137,12 @@ std::vector<std::string> bodyNames(const std::string& scene_xml) {
 }
 
 std::string recordingPage(const std::string& file, const RecordedSamples& samples,
-                          const std::vector<std::string>& bodies) {
-  std::string html = page::head("Presa: " + file) + "<h1>" + svg::escape(file) + "</h1>\n";
+                          const std::vector<std::string>& bodies, const PagePart& part) {
+  std::string html = page::head("Presa: " + file, part.style) + "<h1>" + svg::escape(file) + "</h1>\n";
   html += "<p>Scene " + svg::escape(samples.scene_file) + ", " + svg::escape(samples.start_utc) +
           format(", %.3f to %.3f s, %zu haptic ticks.</p>\n", samples.time.front(), samples.time.back(),
                  samples.time.size());
+  html += part.html;
   if (!samples.faults.empty()) html += "<h2>What went wrong</h2>\n" + list(samples.faults);
   html += "<h2>What the output stages did</h2>\n" + list(statusTimeline(samples));
   for (const RecordedTable& finger : samples.fingers)
