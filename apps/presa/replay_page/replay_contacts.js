@@ -21,14 +21,15 @@ if (presaReplay.scene) (() => {
     return mesh;
   };
 
+  const yellow = matt('#f2c500', {emissive: color('#6b5600')});
   const glyphs = fingers.map((finger, index) => {
     const channels = name => finger[name].map(axis => numbers(axis, count));
     const seen = matt('#14202c', {depthTest: false, transparent: true, opacity: 0.85});  // through the body, too
     const glyph = {
       finger, valid: numbers(finger.valid, count), seen: data.signals.states[index].seen,
-      mu: finger.bodies.map(body => body > -0.5 && data.scene.bodies[Math.round(body)] ? data.scene.bodies[Math.round(body)].mu : 0),
-      tip: add(ball, clear(0.62)), hip: add(ball, seen), link: add(shaft, seen), cone: add(cone, clear(0.3)), rim: add(rim, clear(0.9)),
-      shaft: add(shaft, matt('#f2c500', {emissive: color('#6b5600')})), head: add(head, matt('#f2c500', {emissive: color('#6b5600')})),
+      mu: finger.bodies.map(body => (data.scene.bodies[Math.round(body)] || {mu: 0}).mu),
+      tip: add(ball, clear(0.62)), hip: add(ball, seen), link: add(shaft, seen),
+      cone: add(cone, clear(0.3)), rim: add(rim, clear(0.9)), shaft: add(shaft, yellow), head: add(head, yellow),
     };
     for (const name of ['hip', 'proxy', 'contact', 'normal', 'force']) glyph[name + 's'] = channels(name);
     if (finger.tool) {
@@ -54,7 +55,8 @@ if (presaReplay.scene) (() => {
     if (pulled) {
       const tip = Math.min(0.009, 0.6 * length), thick = tip / 0.009;
       along(glyph.shaft, contact, force, 0.0013 * thick, length - tip);
-      along(glyph.head, contact.clone().addScaledVector(force.clone().normalize(), length - tip), force, 0.0034 * thick, tip);
+      const neck = contact.clone().addScaledVector(force.clone().normalize(), length - tip);
+      along(glyph.head, neck, force, 0.0034 * thick, tip);
     }
     // as high as the normal force: the arrow ends within the rim until the contact slips
     const normal = vector(glyph.normals, key).normalize();
@@ -70,7 +72,8 @@ if (presaReplay.scene) (() => {
   presaReplay.scene.use({
     show(key, time, shown) {
       for (const glyph of glyphs) {
-        const state = stateOf(glyph.seen[binAt(time)]), hip = vector(glyph.hips, key), proxy = vector(glyph.proxys, key);
+        const state = stateOf(glyph.seen[binAt(time)]);
+        const hip = vector(glyph.hips, key), proxy = vector(glyph.proxys, key);
         const radius = Math.max(glyph.finger.radius, 0.0015), apart = proxy.clone().sub(hip);
         const valid = glyph.valid[key.k] > 0.5;
         glyph.tip.visible = glyph.hip.visible = shown.tips && valid;

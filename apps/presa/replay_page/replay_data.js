@@ -15,7 +15,8 @@ const presaReplay = (() => {
     for (const curve of panel.curves) {
       curve.low = numbers(curve.low, signals.count);
       // each is rounded by itself: where they are almost equal, low may come out above high
-      curve.high = curve.high ? numbers(curve.high, signals.count).map((high, i) => Math.max(high, curve.low[i])) : curve.low;
+      const high = curve.high ? numbers(curve.high, signals.count) : curve.low;
+      curve.high = high.map((value, i) => Math.max(value, curve.low[i]));
     }
   }
   for (const state of signals.states) state.seen = bytes(state.seen);
@@ -35,7 +36,7 @@ const presaReplay = (() => {
   const tell = what => { for (const listener of listeners) listener(what); };
 
   const replay = {
-    data, numbers, bytes, clamp, binAt, stateOf, clock, length,
+    data, numbers, bytes, clamp, binAt, stateOf, clock, length, tell,
     listen: listener => listeners.push(listener),
     go(time) {
       clock.time = clock.shown = clamp(time, data.begin, data.end);
@@ -56,7 +57,6 @@ const presaReplay = (() => {
       replay.zoom(around - (around - clock.from) * factor, around + (clock.to - around) * factor);
     },
     phaseAt: time => data.phases.find(phase => phase.begin <= time && time < phase.end),
-    tell,
   };
   return replay;
 })();

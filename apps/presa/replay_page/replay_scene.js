@@ -1,7 +1,7 @@
 'use strict';
 // The bodies in 3-D. Nothing here runs where there is no WebGL or no scene.
 presaReplay.scene = (() => {
-  const {data, numbers, bytes, clock, clamp} = presaReplay;
+  const {data, numbers, clock, clamp} = presaReplay;
   const view = document.querySelector('.replay-view'), canvas = view.querySelector('.replay-canvas');
   const refuse = why => {
     canvas.remove();
@@ -11,7 +11,8 @@ presaReplay.scene = (() => {
     line.hidden = false;
     return null;
   };
-  if (!data.scene) return refuse('No 3-D view: the scene of this recording cannot be loaded again here (' + data.trouble + '). The plots are whole.');
+  if (!data.scene)
+    return refuse(`No 3-D view: this recording's scene cannot be loaded here (${data.trouble}). The plots are whole.`);
   const trial = document.createElement('canvas');
   if (!(trial.getContext('webgl2') || trial.getContext('webgl')))
     return refuse('No 3-D view: this browser has no WebGL, or it is switched off. The plots are whole.');
@@ -28,67 +29,7 @@ presaReplay.scene = (() => {
 
   // ---- bodies ----
 
-  const kCrease = Math.cos(40 * Math.PI / 180);  // facets that meet more sharply keep their edge
-  function creased(position, corners) {
-    const facets = corners.length / 3, normals = new Float32Array(corners.length * 3), out = new Float32Array(corners.length * 3);
-    const face = Array.from({length: facets}, () => new THREE.Vector3()), around = new Map();
-    const at = i => new THREE.Vector3().fromArray(position, 3 * i);
-    for (let f = 0; f < facets; ++f) {
-      const [a, b, c] = [0, 1, 2].map(k => at(corners[3 * f + k]));
-      face[f].copy(b).sub(a).cross(c.sub(a));  // as long as twice the area: large facets count more
-      for (let k = 0; k < 3; ++k) {
-        const corner = corners[3 * f + k];
-        if (!around.has(corner)) around.set(corner, []);
-        around.get(corner).push(f);
-      }
-    }
-    const unit = face.map(n => n.clone().normalize()), sum = new THREE.Vector3();
-    for (let i = 0; i < corners.length; ++i) {
-      const own = unit[Math.floor(i / 3)];
-      sum.set(0, 0, 0);
-      for (const f of around.get(corners[i])) if (unit[f].dot(own) > kCrease) sum.add(face[f]);
-      sum.normalize().toArray(normals, 3 * i);
-      at(corners[i]).toArray(out, 3 * i);
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(out, 3));
-    geometry.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
-    return geometry;
-  }
-  const meshes = data.scene.meshes.map(mesh => {
-    const corners = bytes(mesh.i).buffer;
-    return creased(numbers(mesh.v, 3), mesh.wide ? new Uint32Array(corners) : new Uint16Array(corners));
-  });
-  // three.js has its cylinders along y
-  const upright = geometry => geometry.rotateX(Math.PI / 2);
-  function capsule(radius, length) {
-    const profile = [];
-    for (let i = 0; i <= 32; ++i) {
-      const angle = (i / 32 - 0.5) * Math.PI;
-      profile.push(new THREE.Vector2(Math.max(1e-9, radius * Math.cos(angle)), radius * Math.sin(angle) + (i <= 16 ? -1 : 1) * length / 2));
-      if (i === 16) profile.push(new THREE.Vector2(radius, length / 2));
-    }
-    return upright(new THREE.LatheBufferGeometry(profile, 48));
-  }
-  const made = new Map();  // equal shapes share their geometry
-  function geometryOf(shape) {
-    if ('mesh' in shape) return meshes[shape.mesh];
-    const key = JSON.stringify({...shape, pose: 0});
-    if (!made.has(key)) {
-      made.set(key, shape.box ? new THREE.BoxBufferGeometry(...shape.box)
-        : shape.sphere ? new THREE.SphereBufferGeometry(shape.sphere, 48, 32)
-        : shape.cylinder ? upright(new THREE.CylinderBufferGeometry(shape.cylinder[0], shape.cylinder[0], shape.cylinder[1], 64))
-        : shape.capsule ? capsule(...shape.capsule) : new THREE.BufferGeometry());
-    }
-    return made.get(key);
-  }
-  const materials = new Map();
-  function materialOf(color) {
-    const key = color.join();
-    if (!materials.has(key))
-      materials.set(key, new THREE.MeshStandardMaterial({color: new THREE.Color(...color), roughness: 0.72, metalness: 0}));
-    return materials.get(key);
-  }
+  const shapes = presaReplay.shapes();
   function place(object, pose) {
     object.position.set(pose[0], pose[1], pose[2]);
     object.quaternion.set(pose[4], pose[5], pose[6], pose[3]);
@@ -96,7 +37,7 @@ presaReplay.scene = (() => {
   const bodies = data.scene.bodies.map(body => {
     const group = new THREE.Group();
     for (const shape of body.shapes) {
-      const mesh = new THREE.Mesh(geometryOf(shape), materialOf(body.color));
+      const mesh = new THREE.Mesh(shapes.geometryOf(shape), shapes.materialOf(body.color));
       mesh.castShadow = mesh.receiveShadow = true;
       place(mesh, shape.pose);
       group.add(mesh);
@@ -134,14 +75,14 @@ presaReplay.scene = (() => {
     finger.bodies = numbers(finger.body, motion.count);
     finger.bodies.forEach((body, k) => { if (finger.modes[k] > 0.5) touched.add(Math.round(body)); });
   }
-  const held = data.scene.bodies.map((body, index) => index).filter(index => touched.has(index) && !data.scene.bodies[index].fixed);
+  const held = [...touched].filter(index => data.scene.bodies[index] && !data.scene.bodies[index].fixed);
   /** Box around a body wherever it goes. */
   function sweep(index) {
     const box = new THREE.Box3().setFromObject(bodies[index]), path = moving.find(one => one.index === index);
     if (!path) return box;
     const all = new THREE.Box3(), start = bodies[index].position, stride = Math.max(1, Math.floor(motion.count / 500));
     for (let k = 0; k < motion.count; k += stride)
-      all.union(box.clone().translate(new THREE.Vector3(path.p[0][k] - start.x, path.p[1][k] - start.y, path.p[2][k] - start.z)));
+      all.union(box.clone().translate(new THREE.Vector3(...path.p.map(axis => axis[k])).sub(start)));
     return all;
   }
   /** Where something happens: the bodies that fingers touch, and the fingers while they do; else what moves. */
@@ -150,7 +91,9 @@ presaReplay.scene = (() => {
     for (const index of held.length ? held : moving.map(one => one.index)) box.union(sweep(index));
     for (const finger of motion.fingers) {
       const hip = finger.hip.map(axis => numbers(axis, motion.count));
-      finger.modes.forEach((mode, k) => { if (mode > 0.5) box.expandByPoint(new THREE.Vector3(hip[0][k], hip[1][k], hip[2][k])); });
+      finger.modes.forEach((mode, k) => {
+        if (mode > 0.5) box.expandByPoint(new THREE.Vector3(...hip.map(axis => axis[k])));
+      });
     }
     if (box.isEmpty()) for (const body of bodies) box.expandByObject(body);
     return box.isEmpty() ? box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(0.2, 0.2, 0.2)) : box;
@@ -160,9 +103,10 @@ presaReplay.scene = (() => {
   const box = extent(), followed = bodies[held.length ? held[0] : (moving[0] || {}).index];
   let middle = box.getCenter(new THREE.Vector3()), radius = clamp(1.12 * halfSize(box), 0.03, 1e5);
   const shown = {forces: true, cones: true, tips: true, follow: false};
-  if (followed && radius > 20 * halfSize(new THREE.Box3().setFromObject(followed))) {  // it would be a speck: go with it
+  const size = followed ? halfSize(new THREE.Box3().setFromObject(followed)) : 0;
+  if (size > 0 && radius > 20 * size) {  // it would be a speck: go with it
     shown.follow = view.querySelector('[data-show=follow]').checked = true;
-    radius = 4 * halfSize(new THREE.Box3().setFromObject(followed));
+    radius = 4 * size;
     middle = followed.position.clone();
   }
 
@@ -174,22 +118,24 @@ presaReplay.scene = (() => {
   sun.target.position.copy(middle);
   sun.castShadow = true;
   sun.shadow.mapSize.set(2048, 2048);
-  Object.assign(sun.shadow.camera, {left: -2 * radius, right: 2 * radius, top: 2 * radius, bottom: -2 * radius, near: radius / 10, far: 12 * radius});
+  const wide = 2 * radius, reach = {near: radius / 10, far: 6 * wide};
+  Object.assign(sun.shadow.camera, {left: -wide, right: wide, top: wide, bottom: -wide, ...reach});
   sun.shadow.bias = -0.0006;
   scene.add(sun, sun.target);
   const spacing = 10 ** Math.round(Math.log10(radius / 3)), lines = 40;
   let grid = null;
   function drawFloor() {
-    const css = getComputedStyle(document.documentElement), color = name => new THREE.Color(css.getPropertyValue(name).trim());
+    const css = getComputedStyle(document.documentElement);
+    const color = name => new THREE.Color(css.getPropertyValue(name).trim());
     scene.background = color('--card');  // background and fog are drawn as they are, all else from linear colours
     if (grid) scene.remove(grid);
     const line = color('--rule').convertSRGBToLinear();
     grid = new THREE.GridHelper(lines * spacing, lines, line, line);
     grid.rotation.x = Math.PI / 2;
-    grid.position.set(Math.round(middle.x / spacing) * spacing, Math.round(middle.y / spacing) * spacing, data.scene.floor);
+    const onLine = value => Math.round(value / spacing) * spacing;
+    grid.position.set(onLine(middle.x), onLine(middle.y), data.scene.floor);
     scene.add(grid);
     scene.fog = new THREE.Fog(scene.background.getHex(), 8 * radius, 8 * radius + lines * spacing / 2);
-    for (const material of materials.values()) material.fog = false;
   }
   drawFloor();
   const where = view.querySelector('[data-now=grid]');

@@ -1,7 +1,7 @@
 'use strict';
 // Play, scrub, zoom: mouse, touch and keys.
 (() => {
-  const {data, clock, clamp, plots} = presaReplay, {signals} = data;
+  const {data, clock, clamp, plots, paper} = presaReplay, {signals} = data;
   const root = document.getElementById('replay'), area = plots.plots;
   const scrubber = document.getElementById('replay-scrubber'), play = root.querySelector('[data-do=play]');
   const speed = root.querySelector('.replay-speed select'), track = root.querySelector('.replay-track canvas');
@@ -30,24 +30,25 @@
     scrubber.setAttribute('aria-valuetext', text(clock.time) + (phase ? ', ' + phase.name : ''));
   }
   function drawTrack() {
-    const ratio = window.devicePixelRatio || 1, w = track.clientWidth, h = track.clientHeight, pen = track.getContext('2d');
+    const ratio = window.devicePixelRatio || 1, w = track.clientWidth, h = track.clientHeight;
     if (!w) return;
+    const pen = track.getContext('2d');
     track.width = w * ratio;
     track.height = h * ratio;
     pen.scale(ratio, ratio);
     const xOf = time => 7 + (time - data.begin) / presaReplay.length * (w - 14);  // half a thumb on each side
-    pen.fillStyle = plots.theme('--rule');
+    pen.fillStyle = paper.theme('--rule');
     pen.beginPath(), pen.rect(7, h / 2 - 3, w - 14, 6), pen.fill();
     for (let i = 0; i < data.phases.length; ++i) {
-      pen.fillStyle = plots.theme(i % 2 ? '--rule' : '--soft');
+      pen.fillStyle = paper.theme(i % 2 ? '--rule' : '--soft');
       pen.globalAlpha = i % 2 ? 1 : 0.6;
       pen.fillRect(xOf(data.phases[i].begin), h / 2 - 3, xOf(data.phases[i].end) - xOf(data.phases[i].begin), 6);
     }
     pen.globalAlpha = 1;
-    pen.fillStyle = plots.theme('--bad');
+    pen.fillStyle = paper.theme('--bad');
     for (const fault of data.faults) pen.fillRect(xOf(fault.time) - 1.5, h / 2 - 11, 3, 22);
     if (clock.to - clock.from < presaReplay.length * 0.9999) {  // what the plots show
-      pen.strokeStyle = plots.theme('--stick');
+      pen.strokeStyle = paper.theme('--stick');
       pen.lineWidth = 1.5;
       pen.strokeRect(xOf(clock.from), h / 2 - 8, Math.max(2, xOf(clock.to) - xOf(clock.from)), 16);
     }
@@ -81,7 +82,8 @@
     before = 0;
     if (playing) requestAnimationFrame(advance);
   }
-  const marks = [...data.phases.map(phase => phase.begin), ...data.faults.map(fault => fault.time), data.end].sort((a, b) => a - b);
+  const marks = [...data.phases.map(phase => phase.begin), ...data.faults.map(fault => fault.time), data.end];
+  marks.sort((a, b) => a - b);
   const actions = {
     play: () => setPlaying(!clock.playing),
     before: () => presaReplay.go(marks.filter(time => time < clock.time - 1e-3).pop() ?? data.begin),
@@ -100,8 +102,9 @@
   const keys = {' ': 'play', '[': 'before', ']': 'after', '+': 'in', '=': 'in', '-': 'out', '0': 'all'};
   addEventListener('keydown', event => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const {target, key} = event, name = target.tagName;
-    if (name === 'SELECT' || (name === 'INPUT' && target !== scrubber && key === ' ') || (key === ' ' && ['BUTTON', 'SUMMARY', 'A'].includes(name))) return;
+    if (root.getBoundingClientRect().bottom < 0) return;  // out of sight, further up: the page scrolls
+    const {target, key} = event, name = target === scrubber ? '' : target.tagName;
+    if (name === 'SELECT' || (key === ' ' && ['INPUT', 'BUTTON', 'SUMMARY', 'A'].includes(name))) return;
     const step = (event.shiftKey ? 0.1 : 0.01) * ({ArrowLeft: -1, ArrowRight: 1}[key] || 0);
     if (step) { setPlaying(false); presaReplay.go(clock.time + step); }
     else if (key === 'Home' && target === scrubber) presaReplay.go(data.begin);
@@ -115,12 +118,12 @@
 
   const fingersDown = new Map();  // pointer: x
   let grip = null;                // of two fingers: their times
-  const timeAt = event => plots.timeOf(plots.xInside(event));
+  const timeAt = event => paper.timeOf(plots.xInside(event));
   area.addEventListener('pointerdown', event => {
     if (event.button !== 0) return;
     fingersDown.set(event.pointerId, plots.xInside(event));
     area.setPointerCapture(event.pointerId);
-    if (fingersDown.size === 2) grip = [...fingersDown.values()].map(plots.timeOf);
+    if (fingersDown.size === 2) grip = [...fingersDown.values()].map(paper.timeOf);
     if (fingersDown.size > 1) return;
     setPlaying(false);
     presaReplay.go(timeAt(event));
@@ -134,9 +137,11 @@
     fingersDown.set(event.pointerId, plots.xInside(event));
     if (fingersDown.size === 1) return grip ? undefined : presaReplay.go(timeAt(event));
     if (fingersDown.size === 2) {  // the times under both fingers stay there
-      const [a, b] = [...fingersDown.values()], span = clock.to - clock.from, wide = plots.timeOf(a + 1) - plots.timeOf(a);
+      const [a, b] = [...fingersDown.values()], span = clock.to - clock.from;
+      const pixel = paper.timeOf(a + 1) - paper.timeOf(a);
       if (Math.abs(a - b) < 10) return;
-      const scale = Math.abs(grip[1] - grip[0]) / (Math.abs(a - b) * wide), from = grip[0] - (plots.timeOf(a) - clock.from) * scale;
+      const scale = Math.abs(grip[1] - grip[0]) / (Math.abs(a - b) * pixel);
+      const from = grip[0] - (paper.timeOf(a) - clock.from) * scale;
       presaReplay.zoom(from, from + span * scale);
     }
   });
@@ -165,7 +170,8 @@
   now('decimation').textContent = data.decimation;
   new ResizeObserver(drawTrack).observe(track);
   function fromAddress() {
-    const time = /[#&]t=([-+.\deE]+)/.exec(location.hash), zoom = /[#&]zoom=([-+.\deE]+),([-+.\deE]+)/.exec(location.hash);
+    const time = /[#&]t=([-+.\deE]+)/.exec(location.hash);
+    const zoom = /[#&]zoom=([-+.\deE]+),([-+.\deE]+)/.exec(location.hash);
     if (zoom) presaReplay.zoom(Number(zoom[1]), Number(zoom[2]));
     presaReplay.go(time && Number.isFinite(Number(time[1])) ? Number(time[1]) : clock.time);
   }

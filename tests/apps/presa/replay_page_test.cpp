@@ -166,7 +166,7 @@ TEST(ReplayPage, TheScrubberMovesThePictureAndTheFigures) {
 TEST(ReplayPage, MouseKeysAndAddressSetTimeAndZoom) {
   if (test::browserMissing()) GTEST_SKIP() << "no chromium here";
   const Seen used = seen(pageOf(recorded("config/scenes/cube.xml")), R"JS((() => {
-    const {clock, plots} = presaReplay, area = plots.plots, left = area.getBoundingClientRect().left;
+    const {clock, paper} = presaReplay, area = paper.plots, left = area.getBoundingClientRect().left;
     const key = (key, more) => dispatchEvent(new KeyboardEvent('keydown', {key, ...more}));
     const mouse = (type, x, more) => area.dispatchEvent(new PointerEvent(type, {clientX: left + x, pointerType: 'mouse', pointerId: 1, ...more}));
     area.setPointerCapture = () => {};  // no real pointer is down
@@ -176,13 +176,13 @@ TEST(ReplayPage, MouseKeysAndAddressSetTimeAndZoom) {
     key('ArrowLeft', {shiftKey: true}); out.back = clock.time;
     key(']'); out.phase = document.querySelector('[data-now=phase]').textContent;
     key(' '); out.playing = clock.playing; key(' '); out.paused = !clock.playing;
-    const set = clock.time, under = plots.timeOf(300);
+    const set = clock.time, under = paper.timeOf(300);
     mouse('pointermove', 300); out.peeked = Math.abs(clock.shown - under); out.kept = clock.time === set;
     mouse('pointerleave', 300); out.restored = clock.shown === set;
-    mouse('pointerdown', 300); mouse('pointermove', 350); out.dragged = Math.abs(clock.time - plots.timeOf(350));
+    mouse('pointerdown', 300); mouse('pointermove', 350); out.dragged = Math.abs(clock.time - paper.timeOf(350));
     mouse('pointerup', 350);
     area.dispatchEvent(new WheelEvent('wheel', {deltaY: -200, clientX: left + 300, cancelable: true}));
-    out.span = (clock.to - clock.from) / presaReplay.length; out.fixed = Math.abs(plots.timeOf(300) - under);
+    out.span = (clock.to - clock.from) / presaReplay.length; out.fixed = Math.abs(paper.timeOf(300) - under);
     area.dispatchEvent(new MouseEvent('dblclick')); out.reset = clock.to - clock.from === presaReplay.length;
     return out;
   })())JS",
@@ -217,6 +217,21 @@ TEST(ReplayPage, WithoutWebGLOrScriptsThePlotsAndASentenceRemain) {
   EXPECT_EQ(flat.value[3], 2);
   EXPECT_TRUE(page.find("<noscript>") != std::string::npos);  // and the part that needs scripts stays hidden
   EXPECT_TRUE(page.find("aria-label=\"Motion and plots under one time\" hidden>") != std::string::npos);
+}
+
+// The meshes of a recording from elsewhere may not be here.
+TEST(ReplayPage, WithoutTheSceneThePlotsRemainAndSayWhy) {
+  if (test::browserMissing()) GTEST_SKIP() << "no chromium here";
+  const std::string file = recorded("config/scenes/pinch_and_lift.xml", 1);
+  Recording recording = recordPlugin().read(file);
+  for (std::size_t at = 0; (at = recording.scene_xml.find("amphora.obj", at)) != std::string::npos; ++at)
+    recording.scene_xml.replace(at, 7, "missing");
+  const Seen flat = seen(replay_page::page(recording, recordPlugin().samples(file), ""),
+                         "[document.querySelector('.replay-trouble').textContent, "
+                         "document.querySelector('[data-title^=Normal] [data-name=thumb]').textContent]");
+  EXPECT_EQ(flat.complaints, "");
+  EXPECT_THAT(flat.value[0].get<std::string>(), HasSubstr("missing.obj"));
+  EXPECT_EQ(flat.value[1], "0.00 N");
 }
 
 TEST(ReplayPage, NoFingersIsHeightsAlone) {
