@@ -104,7 +104,7 @@ presaReplay.scene = (() => {
   let middle = box.getCenter(new THREE.Vector3()), radius = clamp(1.12 * halfSize(box), 0.03, 1e5);
   const shown = {forces: true, cones: true, tips: true, follow: false};
   const size = followed ? halfSize(new THREE.Box3().setFromObject(followed)) : 0;
-  if (size > 0 && radius > 20 * size) {  // it would be a speck: go with it
+  if (size > 0 && halfSize(sweep(bodies.indexOf(followed))) > 20 * size) {  // far away it would be a speck: go with it
     shown.follow = view.querySelector('[data-show=follow]').checked = true;
     radius = 4 * size;
     middle = followed.position.clone();
