@@ -40,6 +40,8 @@ const presaReplay = (() => {
     listen: listener => listeners.push(listener),
     go(time) {
       clock.time = clock.shown = clamp(time, data.begin, data.end);
+      const span = clock.to - clock.from;  // the plots go with it
+      if (clock.time < clock.from || clock.time > clock.to) replay.zoom(clock.time - 0.1 * span, clock.time + 0.9 * span);
       tell('time');
     },
     /** Shows a time as long as the pointer is on it; none: back to the time that was set. */

@@ -4,13 +4,12 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/common/number_text.h"
+#include "apps/common/report/fault_events.h"
 #include "apps/common/report/recording_page.h"
-#include "apps/common/report/svg_plot.h"
 #include "apps/presa/replay_page/keyframes.h"
 #include "apps/presa/replay_page/resources.h"
 #include "apps/presa/replay_page/shapes.h"
@@ -54,16 +53,10 @@ Scenery sceneryOf(const Recording& recording) {
   return {loaded.world, "", phaseNames(loaded)};
 }
 
-/// "12.345 s: what" of a recording as time and text.
 json faultsOf(const RecordedSamples& samples) {
   json faults = json::array();
-  for (const std::string& fault : samples.faults) {
-    char* end = nullptr;
-    const double time = std::strtod(fault.c_str(), &end);
-    const std::string what = end;
-    if (end != fault.c_str() && std::isfinite(time) && what.starts_with(" s: "))
-      faults.push_back({{"time", time}, {"text", what.substr(4)}});
-  }
+  for (const svg::Event& event : faultEvents(samples.faults))
+    faults.push_back({{"time", event.time}, {"text", event.label}});
   return faults;
 }
 

@@ -69,11 +69,12 @@ presaReplay.paper = (() => {
     pen.fillStyle = theme('--bad');
     let free = 0;
     for (const fault of data.faults) {
-      const x = xOf(fault.time), text = fault.text.split(';')[0], long = pen.measureText(text).width;
+      const x = xOf(fault.time), long = pen.measureText(fault.text).width;
       if (x < gutter || x > width - kRight || x < free) continue;
-      const left = x + long + 8 > width - kRight;
+      const left = x + long + 8 > width - kRight;  // then its text is on the left of the line
       pen.textAlign = left ? 'right' : 'left';
-      pen.fillText(text, left ? x - 5 : x + 5, data.phases.length ? 26 : 9, left ? x - gutter - 6 : undefined);
+      const text = left ? fitting(pen, fault.text, x - gutter - 8) : fault.text;
+      pen.fillText(text, left ? x - 5 : x + 5, data.phases.length ? 26 : 9);
       free = left ? Infinity : x + long + 12;
     }
   }

@@ -69,8 +69,6 @@
     const next = clock.time + passed * Number(speed.value);
     presaReplay.go(next);
     if (next >= data.end) setPlaying(false);
-    const span = clock.to - clock.from;
-    if (clock.time > clock.to || clock.time < clock.from) presaReplay.zoom(clock.time, clock.time + span);
     if (clock.playing) requestAnimationFrame(advance);
   }
   function setPlaying(playing) {
@@ -118,7 +116,7 @@
 
   const fingersDown = new Map();  // pointer: x
   let grip = null;                // of two fingers: their times
-  const timeAt = event => paper.timeOf(plots.xInside(event));
+  const timeAt = event => clamp(paper.timeOf(plots.xInside(event)), clock.from, clock.to);
   area.addEventListener('pointerdown', event => {
     if (event.button !== 0) return;
     fingersDown.set(event.pointerId, plots.xInside(event));

@@ -42,7 +42,9 @@ std::string threeJs() {
     const std::string library = contentsOf(three / "three.min.js");
     const std::string controls = contentsOf(three / "examples/js/controls/OrbitControls.js");
     if (library.empty() || controls.empty()) continue;
-    return "<script>" + (kLicence + library) + "</script>\n<script>" + controls + "</script>\n";
+    std::string scripts = "<script>";
+    scripts.append(kLicence).append(library).append("</script>\n<script>").append(controls).append("</script>\n");
+    return scripts;
   }
   refuse(127, "--page", "the 3-D view of the page needs three.js, which is not in " + dataFolders(),
          "install it: sudo apt-get install libjs-three");
