@@ -202,6 +202,31 @@ TEST(ReplayPage, MouseKeysAndAddressSetTimeAndZoom) {
   EXPECT_NEAR(out["span"].get<double>(), std::exp(-0.4), 1e-9);
 }
 
+// Two seconds of frames at 50 Hz and half speed: one second of the recording. Whoever wants little motion sees at most
+// four pictures a second, so eight; there, up to 0.25 s of the two have not been shown yet.
+TEST(ReplayPage, PlaysAtTheChosenSpeedWithFewPicturesWhereMotionIsUnwanted) {
+  if (test::browserMissing()) GTEST_SKIP() << "no chromium here";
+  const std::string page = pageOf(recorded("config/scenes/cube.xml"));
+  const std::string play = R"JS((() => {
+    let pictures = 0, frames = [];
+    requestAnimationFrame = draw => frames.push(draw);
+    presaReplay.listen(what => { if (what === 'time') ++pictures; });
+    document.querySelector('.replay-speed select').value = '0.5';
+    dispatchEvent(new KeyboardEvent('keydown', {key: ' '}));
+    for (let frame = 0; frame <= 100; ++frame) for (const draw of frames.splice(0)) draw(1000 + 20 * frame);
+    return [presaReplay.clock.time, pictures];
+  })())JS";
+  const std::string flat = "--disable-3d-apis";  // time alone counts here, and 3-D frames are slow in software
+  const Seen smooth = seen(page, play, "", flat),
+             still = seen(page, play, "", flat + " --force-prefers-reduced-motion");
+  EXPECT_EQ(smooth.complaints + still.complaints, "");
+  EXPECT_NEAR(smooth.value[0].get<double>(), 1, 1e-9);
+  EXPECT_GE(smooth.value[1].get<int>(), 100);
+  EXPECT_NEAR(still.value[0].get<double>(), 1, 0.125);
+  EXPECT_LE(still.value[1].get<int>(), 9);
+  EXPECT_GE(still.value[1].get<int>(), 6);
+}
+
 TEST(ReplayPage, WithoutWebGLOrScriptsThePlotsAndASentenceRemain) {
   if (test::browserMissing()) GTEST_SKIP() << "no chromium here";
   const std::string page = pageOf(recorded("config/scenes/cube.xml"));
