@@ -1,6 +1,7 @@
 #include "apps/common/report/fault_events.h"
 
 #include <cmath>
+#include <cstdlib>
 
 namespace presa {
 
@@ -17,6 +18,17 @@ void addFault(double time, const std::string& text, std::vector<svg::Event>& eve
     }
   }
   events.push_back({label, time});
+}
+
+std::vector<svg::Event> faultEvents(const std::vector<std::string>& faults) {
+  std::vector<svg::Event> events;
+  for (const std::string& fault : faults) {
+    char* end = nullptr;
+    const double time = std::strtod(fault.c_str(), &end);
+    const std::string what = end;
+    if (end != fault.c_str() && std::isfinite(time) && what.starts_with(" s: ")) addFault(time, what.substr(4), events);
+  }
+  return events;
 }
 
 }  // namespace presa

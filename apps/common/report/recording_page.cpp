@@ -1,7 +1,6 @@
 #include "apps/common/report/recording_page.h"
 
 #include <cmath>
-#include <cstdlib>
 
 #include "apps/common/number_text.h"
 #include "apps/common/report/fault_events.h"
@@ -69,22 +68,13 @@ std::vector<svg::Band> touched(const RecordedSamples& samples, const RecordedTab
   return spans;
 }
 
-/// "12.345 s: what" as an event. A text without a time has none.
-void addEvent(const std::string& fault, std::vector<svg::Event>& events) {
-  char* end = nullptr;
-  const double time = std::strtod(fault.c_str(), &end);
-  const std::string what = end;
-  if (end == fault.c_str() || !std::isfinite(time) || !what.starts_with(" s: ")) return;
-  addFault(time, what.substr(4), events);
-}
-
 svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& finger,
                          const std::vector<std::string>& bodies) {
   svg::TimeFigure figure;
   figure.title = "Force, penetration, speed and place of " + finger.name + " over time";
   figure.time = samples.time;
   figure.max_step = kTicksMissing * samples.haptic_period;
-  for (const std::string& fault : samples.faults) addEvent(fault, figure.events);
+  figure.events = faultEvents(samples.faults);
   const std::vector<svg::Band> spans = touched(samples, finger, bodies);
   svg::Panel force{.title = "Force" + svg::touching(spans), .unit = "N", .height = 170, .from_zero = true};
   force.series.push_back({"rendered", "thin", magnitude(finger, "f_rendered_W")});
@@ -137,11 +127,12 @@ std::vector<std::string> bodyNames(const std::string& scene_xml) {
 }
 
 std::string recordingPage(const std::string& file, const RecordedSamples& samples,
-                          const std::vector<std::string>& bodies) {
-  std::string html = page::head("Presa: " + file) + "<h1>" + svg::escape(file) + "</h1>\n";
+                          const std::vector<std::string>& bodies, const PagePart& part) {
+  std::string html = page::head("Presa: " + file, part.style) + "<h1>" + svg::escape(file) + "</h1>\n";
   html += "<p>Scene " + svg::escape(samples.scene_file) + ", " + svg::escape(samples.start_utc) +
           format(", %.3f to %.3f s, %zu haptic ticks.</p>\n", samples.time.front(), samples.time.back(),
                  samples.time.size());
+  html += part.html;
   if (!samples.faults.empty()) html += "<h2>What went wrong</h2>\n" + list(samples.faults);
   html += "<h2>What the output stages did</h2>\n" + list(statusTimeline(samples));
   for (const RecordedTable& finger : samples.fingers)

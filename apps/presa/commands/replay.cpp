@@ -7,6 +7,8 @@
 #include "apps/common/report/recording_page.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/playback/player.h"
+#include "apps/presa/replay_page/replay_page.h"
+#include "apps/presa/replay_page/three_js.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
@@ -99,17 +101,21 @@ int showFlight(const std::string& file, const RecordedSamples& samples) {
   printFaults(samples.faults);
   std::printf("output stages of all fingers together\n");
   for (const std::string& line : statusTimeline(samples)) std::printf("  %s\n", line.c_str());
-  std::printf("forces and motion: presa replay %s --page FILE.html\n", file.c_str());
+  std::printf("forces and motion, in 3-D: presa replay %s --page FILE.html\n", file.c_str());
   return kExitOk;
 }
 
 int runReplay(const ReplayArguments& arguments) {
+  std::string three_js;
+  if (!arguments.page.empty()) {  // before a long recording is read
+    replay_page::checkPlace(arguments.page);
+    three_js = replay_page::threeJs();
+  }
   const Recording recording = recordPlugin().read(arguments.file);
   const bool shown = viewOf(arguments) != RunOptions::View::kNone;
   if (recording.first_tick > 0 || !arguments.page.empty() || shown) {
     const RecordedSamples samples = recordPlugin().samples(arguments.file);
-    if (!arguments.page.empty())
-      writeFileAtomically(arguments.page, recordingPage(arguments.file, samples, bodyNames(recording.scene_xml)));
+    if (!arguments.page.empty()) writeFileAtomically(arguments.page, replay_page::page(recording, samples, three_js));
     if (shown) {
       const int status = showRecording(arguments, recording, samples);
       if (status != kExitOk || !arguments.verify) return status;
@@ -156,7 +162,8 @@ void addReplay(Command app, int& status) {
   command.option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
   command.option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
   addShowOption(command, arguments->shown.show);
-  command.option("--page", arguments->page, "forces, penetration, speed and place of every finger as an HTML page");
+  command.option("--page", arguments->page,
+                 "one HTML page: the motion in 3-D and its plots under one time scrubber; opens offline (libjs-three)");
   command.footer(
       "Nothing is run again for a view: it shows what was recorded.\nExit status: 0 replayed (and, with --verify, "
       "equal), 1 different, 2 not a recording.");
