@@ -11,15 +11,16 @@ namespace presa::view {
 
 /// Quality settings of the lighting.
 struct LightQuality {
-  int taps;      ///< shadow samples per pixel and map, at most 16
   int map_size;  ///< [pixel]
-  bool kept;     ///< maps are kept while nothing moves and they cover the focus
+  bool quick;    ///< for software rendering: shadows are softened in the maps, which are kept while nothing moves
 };
-inline constexpr LightQuality kFineLight{16, 2048, false};
-inline constexpr LightQuality kQuickLight{1, 512, true};  ///< for software rendering
+inline constexpr LightQuality kFineLight{2048, false};
+inline constexpr LightQuality kQuickLight{384, true};
 
 /// Two depth maps: from the key light (shadow) and from straight above (visibility of the sky at each point). Both
-/// cover a sphere around the subject.
+/// cover a sphere around the subject. A fine light softens shadows by many samples at each pixel of the picture; a quick
+/// one keeps mean and mean square of the depths around each point of a smaller map, from which one sample tells the
+/// share of light (variance shadow maps: Donnelly and Lauritzen 2006).
 class Lighting {
  public:
   /// `casters` are drawn into both maps; the uniforms and textures are set on `receivers`.
@@ -46,17 +47,20 @@ class Lighting {
     osg::ref_ptr<osg::Uniform> matrix;
     Vec3 direction;  ///< direction to the light
     Vec3 up;
+    osg::ref_ptr<osg::Texture2D> soft;                 ///< mean [m] and mean square [m²] of depths
+    std::vector<osg::ref_ptr<osg::Camera>> softening;  ///< passes that make it
+    osg::ref_ptr<osg::Uniform> depth_range;            ///< [m]
   };
-  void addMap(const char* name, int unit, const Vec3& direction, const Vec3& up, osg::Node* casters,
-              osg::StateSet* receivers);
+  void addMap(const char* name, int unit, const Vec3& direction, const Vec3& up, osg::Node* casters);
 
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
+  osg::ref_ptr<osg::StateSet> receivers_;
   std::vector<Map> maps_;
   LightQuality quality_ = kFineLight;
   bool due_ = true;  // the maps are not drawn yet
   Vec3 center_ = Vec3::Zero();
   double radius_ = 0;
-  osg::ref_ptr<osg::Uniform> picture_size_, taps_, glow_ = new osg::Uniform("glow", 0.0F);
+  osg::ref_ptr<osg::Uniform> picture_size_, glow_ = new osg::Uniform("glow", 0.0F);
 };
 
 }  // namespace presa::view

@@ -68,13 +68,9 @@ uniform sampler2DShadow sky_map;
 uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
-uniform int taps;
 vec3 daylight(vec3 n, float key, float open);
-const vec2 kTaps[16] = vec2[](
-  vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
-  vec2(-0.916, 0.458), vec2(-0.815, -0.879), vec2(-0.383, 0.277), vec2(0.975, 0.756),
-  vec2(0.443, -0.975), vec2(0.537, -0.474), vec2(-0.265, -0.419), vec2(0.792, 0.191),
-  vec2(-0.242, 0.997), vec2(-0.814, 0.914), vec2(0.200, 0.786), vec2(0.143, -0.141));
+// four samples a pixel; a still picture has four pixels for each of its own
+const vec2 kTaps[4] = vec2[](vec2(-0.94, -0.40), vec2(0.35, 0.29), vec2(-0.24, 0.90), vec2(0.54, -0.74));
 
 // share of light that arrives; blur [m] is the half width of the penumbra. Samples lie in the surface's own plane, so
 // that a slanted surface does not shade itself.
@@ -85,8 +81,8 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 a = mat3(to_map) * (side * blur), b = mat3(to_map) * (cross(n, side) * blur);
   vec3 u = cos(turn) * a + sin(turn) * b, v = cos(turn) * b - sin(turn) * a;
   float sum = 0.0;
-  for (int i = 0; i < taps; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
-  return sum / float(taps);
+  for (int i = 0; i < 4; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
+  return sum / 4.0;
 }
 
 float keyShare(vec3 n, vec3 p) {
@@ -216,14 +212,14 @@ void main() {
   closed = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
   key_at = (key_matrix * vec4(p + n * (0.0008 + 0.0015 * (1.0 - key)), 1.0)).xyz;
   sky_at = (sky_matrix * vec4(p + n * 0.0015, 1.0)).xyz;
-  at = GRAIN == 1 ? gl_Vertex.xyz + grain_offset : p;
+  at = GRAIN == 1 ? gl_Vertex.xyz + grain_offset : vec3(p.xy, n.z > 0.99 ? 1.0 : 0.0);
   gl_Position = gl_ProjectionMatrix * eye;
 }
 )";
 
 constexpr const char* kQuickSurface = R"(#version 130
-uniform sampler2DShadow key_map;
-uniform sampler2DShadow sky_map;
+uniform sampler2D key_map;
+uniform sampler2D sky_map;
 uniform sampler3D grain_map;
 uniform sampler2D ground_map;
 in vec3 sunny, shaded, closed;
@@ -233,6 +229,14 @@ uniform vec3 floor_center;
 uniform float floor_radius;
 uniform vec2 picture_size;
 vec3 skyColor(float height);
+// Upper bound of the share of light (Chebyshev's inequality), from mean and mean square of the depths [m]; what is below
+// a quarter would leak through where two shadows meet.
+float share(sampler2D map, vec3 at) {
+  vec2 depth = texture(map, at.xy).rg;
+  float variance = max(depth.g - depth.r * depth.r, 2.3e-6);
+  float below = max(at.z - depth.r, 0.0);
+  return max(1.333 * variance / (variance + below * below) - 0.333, 0.0);
+}
 float gridLine(vec2 p, float spacing, float strength) {
   vec2 g = p / spacing;
   vec2 width = fwidth(g);
@@ -244,7 +248,7 @@ void main() {
 #ifdef OPEN
   vec3 color = sunny;
 #else
-  vec3 color = mix(mix(closed, shaded, texture(sky_map, sky_at)), sunny, texture(key_map, key_at));
+  vec3 color = mix(mix(closed, shaded, share(sky_map, sky_at)), sunny, share(key_map, key_at));
 #endif
 #if GRAIN == 1
   vec4 cloud = texture(grain_map, 5.5 * at);
@@ -252,7 +256,7 @@ void main() {
 #elif GRAIN == 2
   color *= 2.0 * texture(ground_map, 0.83 * at.xy).rgb;
 #elif GRID == 1
-  color *= 1.0 - 0.5 * max(gridLine(at.xy, 0.05, 0.30), gridLine(at.xy, 0.25, 0.50));
+  color *= 1.0 - 0.5 * at.z * max(gridLine(at.xy, 0.05, 0.30), gridLine(at.xy, 0.25, 0.50));
 #endif
 #ifdef OPEN
   vec3 sky = sqrt(skyColor(gl_FragCoord.y / picture_size.y));  // within 0.015 of its display colour, with the next line
@@ -322,6 +326,34 @@ void main() {
 }
 )";
 
+// mean and mean square of the depths in a square of texels
+constexpr const char* kMoments = R"(#version 130
+uniform sampler2D source;
+uniform float depth_range;
+void main() {
+  ivec2 corner = SIDE * ivec2(gl_FragCoord.xy);
+  vec2 sum = vec2(0.0);
+  for (int y = 0; y < SIDE; ++y)
+    for (int x = 0; x < SIDE; ++x) {
+      float depth = texelFetch(source, corner + ivec2(x, y), 0).r;
+      sum += vec2(depth, depth * depth);
+    }
+  sum /= float(SIDE * SIDE);
+  gl_FragColor = vec4(sum.x * depth_range, sum.y * depth_range * depth_range, 0.0, 0.0);
+}
+)";
+
+constexpr const char* kBlur = R"(#version 130
+uniform sampler2D source;
+in vec2 at;
+void main() {
+  vec2 texel = 1.0 / vec2(textureSize(source, 0)), sum = vec2(0.0);
+  for (int y = -HALF; y < HALF; ++y)
+    for (int x = -HALF; x < HALF; ++x) sum += texture(source, at + (vec2(x, y) + 0.5) * texel).rg;
+  gl_FragColor = vec4(sum / float(4 * HALF * HALF), 0.0, 0.0);
+}
+)";
+
 // the head-up display is multiplied by its opacity already
 constexpr const char* kOverlay = R"(#version 130
 uniform sampler2D space;
@@ -380,6 +412,15 @@ osg::ref_ptr<osg::Program> quickSurface(const char* name, Material::Texture text
   return program;
 }
 
+/// Fills a picture in clip space.
+osg::ref_ptr<osg::Program> copying(const char* name, const std::string& fragments) {
+  osg::ref_ptr<osg::Program> program = new osg::Program;
+  program->setName(name);
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, kCopyVertex));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragments));
+  return program;
+}
+
 }  // namespace
 
 osg::ref_ptr<osg::Program> body(Material::Texture texture) { return surface("body", kBody, texture); }
@@ -394,12 +435,12 @@ osg::ref_ptr<osg::Program> skin(bool quick) { return quick ? plain("skin") : sur
 osg::ref_ptr<osg::Program> glyph() { return plain("glyph"); }
 osg::ref_ptr<osg::Program> cone() { return plain("cone"); }
 
-osg::ref_ptr<osg::Program> overlay() {
-  osg::ref_ptr<osg::Program> program = new osg::Program;
-  program->setName("overlay");
-  program->addShader(new osg::Shader(osg::Shader::VERTEX, kCopyVertex));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kOverlay));
-  return program;
+osg::ref_ptr<osg::Program> overlay() { return copying("overlay", kOverlay); }
+osg::ref_ptr<osg::Program> moments(int side) {
+  return copying("moments", defined(kMoments, "#define SIDE " + std::to_string(side) + "\n"));
+}
+osg::ref_ptr<osg::Program> blur(int half_width) {
+  return copying("blur", defined(kBlur, "#define HALF " + std::to_string(half_width) + "\n"));
 }
 
 osg::ref_ptr<osg::Program> background() {

@@ -12,7 +12,7 @@ namespace presa::view::shaders {
 osg::ref_ptr<osg::Program> body(Material::Texture texture);
 /// Floor: like a body, fading into the background with distance.
 osg::ref_ptr<osg::Program> floor(Material::Texture texture);
-/// For software rendering: light computed at the vertices, one sample of each shadow. `grid`: lines on all faces;
+/// For software rendering: light computed at the vertices, soft shadows with one sample of each map. `grid`: lines on all faces;
 /// `open`: the part of the floor that fades and has no shadows.
 osg::ref_ptr<osg::Program> quickBody(Material::Texture texture, bool grid);
 osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open);
@@ -26,6 +26,10 @@ osg::ref_ptr<osg::Program> cone();
 /// Puts the head-up display (texture `hud`, multiplied by its opacity) over the picture (`space`); positions in clip
 /// space.
 osg::ref_ptr<osg::Program> overlay();
+/// Mean and mean square of the depths in each square of `side` texels of a depth texture (`source`), and their mean over
+/// twice `half_width` texels; uniform `depth_range` [m].
+osg::ref_ptr<osg::Program> moments(int side);
+osg::ref_ptr<osg::Program> blur(int half_width);
 /// Vertical gradient behind everything; uniform `crop`: lower edge and height of the rows drawn, as shares of the
 /// picture's height.
 osg::ref_ptr<osg::Program> background();
