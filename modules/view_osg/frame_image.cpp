@@ -1,5 +1,6 @@
 #include "modules/view_osg/frame_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -18,6 +19,21 @@ constexpr int kLightSteps = 4096;
 
 double toLight(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 double toCode(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+/// A pixel that covers its background by `alpha`: its colour over black is alpha times its own.
+struct Cover {
+  double alpha = 0;
+  std::array<double, 3> light{};  ///< times alpha
+
+  void add(const unsigned char* black, const unsigned char* white) {
+    int through = 0;  // of the background, summed over the three channels
+    for (std::size_t c = 0; c < 3; ++c) through += std::max(0, white[c] - black[c]);
+    const double covered = 1 - through / 765.0;
+    if (covered <= 0) return;
+    alpha += covered;
+    for (std::size_t c = 0; c < 3; ++c) light[c] += covered * toLight(std::min(1.0, black[c] / (255 * covered)));
+  }
+};
 
 struct SrgbTables {
   std::array<float, 256> light;
@@ -54,6 +70,27 @@ osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor) {
         }
       for (std::size_t c = 0; c < 3; ++c)
         small->data(x, y)[c] = tables.code[static_cast<std::size_t>(std::lround(sum[c] * scale))];
+    }
+  }
+  return small;
+}
+
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor) {
+  osg::ref_ptr<osg::Image> small = new osg::Image;
+  small->allocateImage(over_black.s() / factor, over_black.t() / factor, 1, GL_RGBA, GL_UNSIGNED_BYTE, 1);
+  for (int y = 0; y < small->t(); ++y) {
+    for (int x = 0; x < small->s(); ++x) {
+      Cover sum;
+      for (int i = 0; i < factor * factor; ++i) {
+        const int from_x = factor * x + i % factor, from_y = factor * y + i / factor;
+        sum.add(over_black.data(from_x, from_y), over_white.data(from_x, from_y));
+      }
+      unsigned char* pixel = small->data(x, y);
+      for (std::size_t c = 0; c < 3; ++c)
+        pixel[c] = sum.alpha > 0
+                       ? static_cast<unsigned char>(std::lround(255 * toCode(std::min(1.0, sum.light[c] / sum.alpha))))
+                       : 0;
+      pixel[3] = static_cast<unsigned char>(std::lround(255 * sum.alpha / (factor * factor)));
     }
   }
   return small;

@@ -22,6 +22,9 @@ class FrameGrabber : public osg::Camera::DrawCallback {
 /// codes.
 osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor);
 
+/// RGBA image without its background, from the same frame over black and over white; averaged as by `shrink`.
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor);
+
 /// Returns "" on success, else the reason for the failure.
 std::string writePng(const osg::Image& image, const std::string& file);
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <osg/GLObjects>
 #include <osgViewer/Viewer>
 
+#include "modules/view_osg/camera_choice.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/gl_context_egl.h"
 #include "modules/view_osg/osg_convert.h"
@@ -9,22 +11,31 @@
 namespace presa::view {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720, kSupersample = 2;
+constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered at twice its size [pixel]
+
+int supersampleOf(const PictureOptions& options) { return std::max(options.width, options.height) > kSmoothed ? 1 : 2; }
 
 class OffscreenRenderer final : public Renderer {
  public:
-  explicit OffscreenRenderer(Picture& picture)
-      : picture_(picture), context_(kSupersample * kWidth, kSupersample * kHeight) {
-    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, kSupersample * kWidth, kSupersample * kHeight);
+  OffscreenRenderer(Picture& picture, const PictureOptions& options)
+      : picture_(picture),
+        choice_(options),
+        background_(options.background),
+        supersample_(supersampleOf(options)),
+        aspect_(static_cast<double>(options.width) / options.height),
+        context_(supersample_ * options.width, supersample_ * options.height) {
+    const int width = supersample_ * options.width, height = supersample_ * options.height;
+    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, width, height);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setKeyEventSetsDone(0);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
     viewer_.setSceneData(picture.root());
     osg::Camera* camera = viewer_.getCamera();
     camera->setFinalDrawCallback(grabber_);
-    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
-    picture.setSize(kSupersample * kWidth, kSupersample * kHeight);
-    picture.hud().setAspect(static_cast<double>(kWidth) / kHeight);
+    camera->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
+    clearTo(1);  // seen only without a sky
+    picture.setSize(width, height);
+    picture.hud().setAspect(aspect_);
     viewer_.realize();
   }
 
@@ -37,21 +48,40 @@ class OffscreenRenderer final : public Renderer {
   }
 
   void render() override {
-    const CameraPose pose = frameSubject(picture_.subject(), static_cast<double>(kWidth) / kHeight,
-                                         chooseHeading(picture_.subject()), picture_.usedWidth());
-    viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
+    const CameraPose pose = cameraNow();
+    viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), toOsg(upOf(pose)));
+    picture_.seenFrom(pose);
     viewer_.frame();
   }
   osg::ref_ptr<osg::Image> capture() override {
-    grabber_->arm();
-    render();
-    return shrink(*grabber_->take(), kSupersample);
+    const osg::ref_ptr<osg::Image> frame = grab();
+    if (background_ != PictureOptions::Background::kTransparent) return shrink(*frame, supersample_);
+    clearTo(0);
+    const osg::ref_ptr<osg::Image> over_black = grab();
+    clearTo(1);
+    return cutOut(*over_black, *frame, supersample_);
   }
   bool closed() const override { return false; }
   bool takePictureRequest() override { return false; }
 
  private:
+  CameraPose cameraNow() const {
+    if (const std::optional<CameraPose> place = choice_.place()) return *place;
+    const auto [heading, elevation] = choice_.direction(picture_.subject());
+    return frameSubject(picture_.subject(), aspect_, heading, picture_.usedWidth(), elevation);
+  }
+  osg::ref_ptr<osg::Image> grab() {
+    grabber_->arm();
+    render();
+    return grabber_->take();
+  }
+  void clearTo(float grey) { viewer_.getCamera()->setClearColor({grey, grey, grey, 1}); }
+
   Picture& picture_;
+  const CameraChoice choice_;
+  const PictureOptions::Background background_;
+  const int supersample_;
+  const double aspect_;
   EglContext context_;
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;
@@ -60,8 +90,8 @@ class OffscreenRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture) {
-  return std::make_unique<OffscreenRenderer>(picture);
+std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options) {
+  return std::make_unique<OffscreenRenderer>(picture, options);
 }
 
 }  // namespace presa::view

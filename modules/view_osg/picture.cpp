@@ -7,6 +7,7 @@
 namespace presa::view {
 namespace {
 
+constexpr float kBelowRates = 540;    ///< upper edge of a panel below the rates [lines]
 constexpr double kFloorRadius = 1.2;  ///< minimum radius of the floor [m]
 constexpr double kSunset = 2;         ///< time of the change to evening sun after completion [s]
 constexpr double kMoves = 0.0005;     ///< smaller motions do not update the shadow [m]
@@ -36,7 +37,11 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       hud_(*world_, options),
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
-      plots_(hud_.left(), *world_) {
+      plots_(hud_.left(), *world_),
+      ink_(inkOn(options.picture.background)),
+      panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
+              parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots]),
+      offsets_top_(options.picture.hud == PictureOptions::Hud::kFull ? kBelowRates : Hud::kHeight - 18) {
   addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
@@ -50,10 +55,11 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
                           neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
-  space_->addChild(makeBackground());
+  const bool in_the_open = options.picture.background == PictureOptions::Background::kScene;
+  if (in_the_open) space_->addChild(makeBackground());
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
-  space_->addChild(floor_);
+  if (in_the_open) space_->addChild(floor_);
   root_->addChild(space_);
   root_->addChild(hud_.camera());
   setQuick(false);
@@ -130,6 +136,13 @@ bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& finge
   return true;
 }
 
+void Picture::showOffsets(bool shown, const ContactExchange& contacts) {
+  if (shown && !offsets_) offsets_.emplace(hud_.right(), offsets_top_, *world_, ink_);
+  if (!offsets_) return;
+  offsets_->show(shown);
+  if (shown) offsets_->update(contacts);
+}
+
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   std::vector<FingerView> fingers = fingerViews(*world_, frame);
   if (screen_ && !screen_->measured) fingers = withoutMeasured(std::move(fingers));
@@ -150,6 +163,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);
   plots_.update(parts[ShownPart::kPlots]);
+  showOffsets(parts[ShownPart::kOffset], frame.contacts);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);

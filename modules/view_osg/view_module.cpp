@@ -53,14 +53,15 @@ void ViewModule::start() {
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
-    if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
+    if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
     renderer_ = windowed()
                     ? makeWindowRenderer(*picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
                                          {.pointer = pointer_ ? &*pointer_ : nullptr,
                                           .time = time_,
                                           .undo = world_->scene.assembly.has_value(),
-                                          .participant = options_.participant.has_value()})
-                    : makeOffscreenRenderer(*picture_);
+                                          .participant = options_.participant.has_value()},
+                                         options_.picture)
+                    : makeOffscreenRenderer(*picture_, options_.picture);
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <osgUtil/RenderBin>
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
+#include "modules/view_osg/camera_choice.h"
 #include "modules/view_osg/coarse_space.h"
 #include "modules/view_osg/frame_budget.h"
 #include "modules/view_osg/frame_image.h"
@@ -15,15 +17,22 @@
 namespace presa::view {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kFollowTime = 0.4;  ///< time constant of the camera [s]
 
 class WindowRenderer final : public Renderer {
  public:
-  WindowRenderer(Picture& picture, const std::string& title, const Controls& controls)
-      : picture_(picture), keep_(controls.participant), input_(new WindowInput(picture, camera_, controls)) {
-    const WindowContext window =
-        controls.participant ? participantWindow(title, kWidth, kHeight) : openWindow(title, kWidth, kHeight);
+  WindowRenderer(Picture& picture, const std::string& title, const Controls& controls, const PictureOptions& options)
+      : picture_(picture),
+        keep_(controls.participant),
+        choice_(options),
+        camera_(static_cast<double>(options.width) / options.height),
+        input_(new WindowInput(picture, camera_, controls)) {
+    const WindowContext window = controls.participant ? participantWindow(title, options.width, options.height)
+                                                      : openWindow(title, options.width, options.height);
+    if (const std::optional<CameraPose> place = choice_.place()) {
+      camera_.set(*place);
+      input_->following = false;
+    }
     window_ = window.context;
     if (window.software) {
       picture.setQuick(true);
@@ -38,7 +47,7 @@ class WindowRenderer final : public Renderer {
     camera->setGraphicsContext(window_);
     const osg::GraphicsContext::Traits& size = *window_->getTraits();
     camera->setViewport(0, 0, size.width, size.height);
-    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
+    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(size.width) / size.height, 0.01, 10);
     camera->setFinalDrawCallback(grabber_);
     viewer_.addEventHandler(input_);
     viewer_.setSceneData(coarse_ ? coarse_->root() : picture.root());
@@ -46,6 +55,7 @@ class WindowRenderer final : public Renderer {
     for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
       help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
+    input_->setAspect(static_cast<double>(size.width) / size.height);
     setSize(size.width, size.height, 1);
     viewer_.realize();
     if (!viewer_.isRealized()) throw std::runtime_error("the window opened, but it gives no OpenGL context");
@@ -94,6 +104,7 @@ class WindowRenderer final : public Renderer {
     if (input_->following) follow();
     const CameraPose pose = camera_.pose();
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
+    picture_.seenFrom(pose);
     viewer_.updateTraversal();
     viewer_.renderingTraversals();
   }
@@ -112,20 +123,22 @@ class WindowRenderer final : public Renderer {
     double share = 1 - std::exp(-(now - followed_at_) / kFollowTime);
     followed_at_ = now;
     if (std::exchange(input_->frame_requested, false)) {
-      heading_ = chooseHeading(picture_.subject());
+      direction_ = choice_.direction(picture_.subject());
+      direction_.elevation = std::min(direction_.elevation, CameraControl::kSteepest);
       share = 1;
     }
-    camera_.approach(frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(), heading_,
-                                  picture_.usedWidth()),
+    camera_.approach(frameSubject(picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(),
+                                  direction_.heading, picture_.usedWidth(), direction_.elevation),
                      share);
   }
 
   Picture& picture_;
   const bool keep_;  // the window stays open
-  CameraControl camera_{static_cast<double>(kWidth) / kHeight};
+  const CameraChoice choice_;
+  CameraControl camera_;
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<WindowInput> input_;
-  double heading_ = 0;
+  CameraChoice::Direction direction_{};
   double followed_at_ = 0;
   std::optional<CoarseSpace> coarse_;  // only with software rendering
   FrameBudget budget_;
@@ -137,8 +150,9 @@ class WindowRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls) {
-  return std::make_unique<WindowRenderer>(picture, title, controls);
+std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls,
+                                             const PictureOptions& options) {
+  return std::make_unique<WindowRenderer>(picture, title, controls, options);
 }
 
 }  // namespace presa::view
