@@ -112,7 +112,8 @@ Hud::Hud(const World& world, const RunOptions& options)
 // What other options ask for (legend, parts) stays, and so does help.
 void Hud::reduce() {
   if (level_ == Level::kFull) return;
-  for (const auto& part : {left_figures_, right_figures_, legend_, task_, notes_}) part->setNodeMask(0);
+  for (osg::Group* part : {left_figures_.get(), right_figures_.get(), task_.get(), notes_.get()}) part->setNodeMask(0);
+  legend_->setNodeMask(0);
   if (level_ == Level::kOff) return title_->setNodeMask(0);
   scale_bar_.emplace(*title_, ink_);
 }
@@ -127,6 +128,9 @@ void Hud::setAspect(double aspect) {
   right_->setMatrix(osg::Matrixd::translate(width, 0, 0));
   center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
   participant_->setMatrix(center_->getMatrix());
+  const double share = std::min(1.0, (width - 20) / legend_width_);  // a narrow picture has it smaller
+  legend_->setMatrix(osg::Matrixd::translate(0, kHeight / 2, 0) * osg::Matrixd::scale(share, share, 1) *
+                     osg::Matrixd::translate(0, -kHeight / 2, 0));
 }
 
 void Hud::showFigures(bool shown) { figures_->setNodeMask(shown ? ~0U : 0U); }
@@ -214,6 +218,7 @@ void Hud::addRates(const World& world, bool bus) {
 void Hud::addLegend(bool interactive) {
   constexpr float kY = 27;
   const float width = interactive ? 904 : 826, left = -width / 2;
+  legend_width_ = width;
   legend_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, ink_.panel));
   osg::ref_ptr<osg::MatrixTransform> strip =
       new osg::MatrixTransform(osg::Matrixd::translate(left + 12, -kHeight / 2, 0));

@@ -77,7 +77,8 @@ class Hud {
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
   /// In an assembly task, rates and fingers are shown only with the help, and the legend gives way to the assembly
   /// panel.
-  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group, legend_ = new osg::Group;
+  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group;
+  osg::ref_ptr<osg::MatrixTransform> legend_ = new osg::MatrixTransform;
   osg::ref_ptr<osg::Group> title_ = new osg::Group, task_ = new osg::Group, notes_ = new osg::Group;
   const World& world_;
   const Level level_;
@@ -88,6 +89,7 @@ class Hud {
   std::optional<ScaleBar> scale_bar_;
   std::vector<Card> cards_;
   std::vector<RateLine> rates_;
+  float legend_width_ = 0;
   double grip_scale_ = 0;  ///< full bar: the most that the devices can give [N]
 };
 

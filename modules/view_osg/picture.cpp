@@ -41,6 +41,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       ink_(inkOn(options.picture.background)),
       panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
               parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots]),
+      whole_cones_(options.picture.hud != PictureOptions::Hud::kFull || options.picture.camera),
       offsets_top_(options.picture.hud == PictureOptions::Hud::kFull ? kBelowRates : Hud::kHeight - 18) {
   addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
@@ -118,6 +119,9 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
     subject_.push_back({finger.p_WP, finger.radius});
     if (finger.oriented) subject_.push_back({finger.p_WP + kPenLength * (finger.q_WT * Vec3::UnitZ()), 0.0});
     if (finger.touches()) subject_.push_back({finger.p_WC + kArrowLengthPerNewton * finger.f_H_W, 0.0});
+    if (!finger.touches() || !whole_cones_ || !parts_[ShownPart::kCones]) continue;
+    const auto [height, rim] = coneSize(finger);
+    subject_.push_back({finger.p_WC + height * finger.nhat_W, rim});
   }
 }
 

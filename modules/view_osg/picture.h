@@ -77,7 +77,8 @@ class Picture {
   Plots plots_;
   std::optional<OffsetPanel> offsets_;  // once it is shown
   const Ink ink_;
-  const bool panels_;  // something is drawn at the sides
+  const bool panels_;       // something is drawn at the sides
+  const bool whole_cones_;  // the camera keeps them in the picture
   const float offsets_top_;
   std::optional<ParticipantScreen> screen_;  // only for a participant
   std::optional<ParticipantPanel> panel_;    // with screen_
