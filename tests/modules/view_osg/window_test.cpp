@@ -38,8 +38,8 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
 /// A window driven through OSG's event queue, like X events. The scene does not move.
 class Driven {
  public:
-  explicit Driven(bool pointer = false, const PictureOptions& picture = {})
-      : run_(makePinchRun(RunOptions::View::kWindow, "")), module_(run_.world, optionsWith(picture)), feed_(module_) {
+  explicit Driven(bool pointer = false, const PictureOptions& asked = {})
+      : run_(makePinchRun(RunOptions::View::kWindow, "")), module_(run_.world, optionsWith(asked)), feed_(module_) {
     if (pointer) module_.offerPointer({0, 1});
     // a private folder for pictures saved by key
     const std::string folder = testing::TempDir() + "presa_view_" + std::to_string(getpid());
@@ -135,9 +135,9 @@ class Driven {
   osgGA::EventQueue& events() { return *window_->getEventQueue(); }
   std::string picture() const { return "presa-" + run_.world->scene.name + "-0.000s.png"; }
 
-  RunOptions optionsWith(const PictureOptions& picture) const {
+  RunOptions optionsWith(const PictureOptions& asked) const {
     RunOptions options = run_.options;
-    options.picture = picture;
+    options.picture = asked;
     return options;
   }
 
