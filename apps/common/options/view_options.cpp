@@ -17,12 +17,16 @@ RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn) {
 }
 
 void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show) {
-  command.option(
-      "--camera", asked.camera,
-      "where from: EYE:TARGET in metres, as 0.5,-0.8,0.4:0,0,0.1, or front, back, left, right, top or iso, as\n"
-      "near as bodies and fingers fit (default: chosen so that fingers are seen); the key c of the window tells\n"
-      "its own");
-  command.option("--picture-size", asked.size, "WxH of a picture, a video, or the window at first (default: 1280x720)");
+  command
+      .option(
+          "--camera", asked.camera,
+          "where from: EYE:TARGET in metres, as 0.5,-0.8,0.4:0,0,0.1, or front, back, left, right, top or iso, as\n"
+          "near as bodies and fingers fit (default: chosen so that fingers are seen); the key c of the window tells\n"
+          "its own")
+      .kind("EYE:TARGET");
+  command
+      .option("--picture-size", asked.size, "pixels of a picture, a video, or the window at first (default: 1280x720)")
+      .kind("WxH");
   command
       .option("--hud", asked.hud,
               "figures over the scene: off, minimal (scene, time, scale bar) or full; what other options ask for stays")
