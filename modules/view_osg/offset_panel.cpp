@@ -24,7 +24,9 @@ FingerOffset split(const Vec3& offset, const Vec3& nhat) {
 
 }  // namespace
 
-FingerOffset offsetFromHip(const FingerContact& contact) { return split(contact.p_WP - contact.p_WH, contact.nhat_W); }
+FingerOffset offsetFromHip(const FingerContact& contact, const Quat& R_WB) {
+  return split(contact.p_WP - contact.p_WH, R_WB * contact.nhat_B);
+}
 FingerOffset offsetFromObject(const FingerContact& contact) { return split(contact.p_BP, contact.nhat_B); }
 
 OffsetPanel::OffsetPanel(osg::Group& right, float top, const World& world, const Ink& ink) {
@@ -65,11 +67,14 @@ void OffsetPanel::set(Value& value, bool touches, double offset, ContactMode mod
   value.bar.set(touches ? std::abs(offset) / value.full : 0, barColor(mode));
 }
 
-void OffsetPanel::update(const ContactExchange& contacts) {
+void OffsetPanel::update(const ViewFrame& frame) {
+  const std::vector<FingerContact>& contacts = frame.contacts.fingers;
   for (std::size_t i = 0; i < fingers_.size(); ++i) {
-    const FingerContact contact = i < contacts.fingers.size() ? contacts.fingers[i] : FingerContact{};
-    const bool touches = contact.mode != ContactMode::kNone && contact.body != kNoBody;
-    const FingerOffset hip = offsetFromHip(contact), object = offsetFromObject(contact);
+    const FingerContact contact = i < contacts.size() ? contacts[i] : FingerContact{};
+    const auto body = static_cast<std::size_t>(contact.body);
+    const bool touches = contact.mode != ContactMode::kNone && contact.body != kNoBody && body < frame.X_WB.size();
+    const Quat R_WB = touches ? Quat(frame.X_WB[body].q) : Quat(Quat::Identity());
+    const FingerOffset hip = offsetFromHip(contact, R_WB), object = offsetFromObject(contact);
     set(fingers_[i][0], touches, hip.tangential, contact.mode);
     set(fingers_[i][1], touches, hip.normal, contact.mode);
     set(fingers_[i][2], touches, object.tangential, contact.mode);

@@ -14,8 +14,8 @@ namespace presa::view {
 struct FingerOffset {
   double normal = 0, tangential = 0;
 };
-/// Proxy minus HIP: what stretches the contact's spring.
-FingerOffset offsetFromHip(const FingerContact& contact);
+/// Proxy minus HIP: what stretches the contact's spring. R_WB: of the touched body (the bus sends no nhat_W).
+FingerOffset offsetFromHip(const FingerContact& contact, const Quat& R_WB);
 /// Proxy minus the object's origin, turned with the object: constant while the finger sticks, the measure of grasping.
 FingerOffset offsetFromObject(const FingerContact& contact);
 
@@ -26,7 +26,7 @@ class OffsetPanel {
 
   /// `right`: group whose x = 0 is the right edge; `top`: upper edge of the panel.
   OffsetPanel(osg::Group& right, float top, const World& world, const Ink& ink);
-  void update(const ContactExchange& contacts);
+  void update(const ViewFrame& frame);
   void show(bool shown) { group_->setNodeMask(shown ? ~0U : 0U); }
 
  private:

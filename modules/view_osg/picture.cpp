@@ -140,11 +140,11 @@ bool Picture::moved(const ViewFrame& frame, const std::vector<FingerView>& finge
   return true;
 }
 
-void Picture::showOffsets(bool shown, const ContactExchange& contacts) {
+void Picture::showOffsets(bool shown, const ViewFrame& frame) {
   if (shown && !offsets_) offsets_.emplace(hud_.right(), offsets_top_, *world_, ink_);
   if (!offsets_) return;
   offsets_->show(shown);
-  if (shown) offsets_->update(contacts);
+  if (shown) offsets_->update(frame);
 }
 
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
@@ -167,7 +167,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);
   plots_.update(parts[ShownPart::kPlots]);
-  showOffsets(parts[ShownPart::kOffset], frame.contacts);
+  showOffsets(parts[ShownPart::kOffset], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius);

@@ -57,7 +57,7 @@ class Picture {
  private:
   ShownParts partsNow() const;
   bool moved(const ViewFrame& frame, const std::vector<FingerView>& fingers);
-  void showOffsets(bool shown, const ContactExchange& contacts);
+  void showOffsets(bool shown, const ViewFrame& frame);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
   std::shared_ptr<const World> world_;

@@ -230,10 +230,12 @@ TEST_F(Paper, TransparentPictureHasAlpha) {
 TEST_F(Paper, OffsetsAreThoseOfTheContact) {
   auto run = makePinchRun(RunOptions::View::kOffscreen, "");
   const PinchStates states = makePinchStates(*run.world, {0.01, 0.02, 0.08}, 0.7);
-  const view::FingerOffset hip = view::offsetFromHip(states.contacts.fingers[0]);
+  FingerContact thumb = states.contacts.fingers[0];
+  thumb.nhat_W = Vec3::UnitZ();  // as over the bus, which does not send it
+  const view::FingerOffset hip = view::offsetFromHip(thumb, Quat(Eigen::AngleAxisd(0.7, Vec3::UnitZ())));
   EXPECT_NEAR(hip.normal, 0.0032, 1e-12);
   EXPECT_NEAR(hip.tangential, 0.0009, 1e-12);
-  const view::FingerOffset object = view::offsetFromObject(states.contacts.fingers[0]);
+  const view::FingerOffset object = view::offsetFromObject(thumb);
   EXPECT_NEAR(object.normal, kCubeEdge / 2 + 0.008, 1e-12);
   EXPECT_NEAR(object.tangential, 0.004, 1e-12);
 }
