@@ -32,7 +32,8 @@ constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
   std::string size = "column", parameters, folder, rig, view, screenshot, video, summary, language = "en";
-  std::vector<std::string> show;         // as in RunOptions
+  std::vector<std::string> show;  // as in RunOptions
+  PictureArguments asked;
   std::string visits;                    // folder of saved visits; empty: the default
   std::string kept;                      // session to continue
   std::vector<std::string> screenshots;  // seconds, folder
@@ -60,7 +61,17 @@ std::string visitFolder(const Arguments& a) {
   return a.visits.empty() ? temple::defaultVisitFolder() : a.visits;
 }
 
+/// A picture of the scene alone is drawn off-screen.
+PictureOptions pictureOf(const Arguments& a, Diagnostics& diagnostics) {
+  RunOptions options;
+  options.view = a.visit() ? viewOf(a) : RunOptions::View::kOffscreen;
+  options.screenshot = a.screenshot;
+  options.video = a.video;
+  return pictureOf(a.asked, options, diagnostics);
+}
+
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
+  pictureOf(a, diagnostics);
   if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
     diagnostics.error(
         979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
@@ -104,9 +115,10 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   options.view = RunOptions::View::kOffscreen;
   options.show = a.show;
   options.screenshot = a.screenshot;
+  Diagnostics diagnostics;
+  options.picture = pictureOf(a, diagnostics);
   if (const auto folder = std::filesystem::path(a.screenshot).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder);
-  Diagnostics diagnostics;
   Loaded loaded =
       loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}}, options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
@@ -127,7 +139,7 @@ std::string pairOf(const char* driver) {
          "</rig>";
 }
 
-RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
+RunOptions optionsOf(const temple::Building& building, const Arguments& a, Diagnostics& diagnostics) {
   RunOptions options;
   options.duration = a.limit > 0   ? a.limit
                      : a.automatic ? kEachBlock * static_cast<double>(building.blocks.size())
@@ -140,6 +152,7 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a) {
   options.screenshot = a.screenshot;
   options.video = a.video;
   options.show = a.show;
+  options.picture = pictureOf(a, diagnostics);
   if (!a.screenshots.empty()) {
     options.screenshot_every = std::atof(a.screenshots.front().c_str());
     options.screenshots = a.screenshots.back();
@@ -170,7 +183,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
   }
   Diagnostics diagnostics;
   Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
-                            optionsOf(building, a), diagnostics);
+                            optionsOf(building, a, diagnostics), diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
 
@@ -314,7 +327,7 @@ void addTemple(Command app, int& status) {
       .existingFile();
   command.option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
   command.option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
-  addShowOption(command, a->show);
+  addPictureOptions(command, a->asked, a->show);
   command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every SECONDS simulated seconds")
       .values(2, 2);
   command

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/scene/participant_screen.h"
+#include "framework/scene/picture_options.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
@@ -43,6 +44,7 @@ struct RunOptions {
   std::optional<SimulatedPerson> person{};
   std::optional<BusSettings> bus{};  ///< takes precedence over rig and scene; network "none": no bus
   bool bus_commands = false;         ///< accept commands even if rig and scene do not
+  PictureOptions picture{};
 };
 
 /// The bus on which the run publishes, or none. Precedence: run options, rig, scene.

@@ -18,10 +18,11 @@ enum class ShownPart : std::size_t {
   kSleeping,  ///< bodies that sleep in the dynamics
   kFrames,    ///< axes of world and bodies, x red, y green, z blue
   kPlots,     ///< force, penetration and haptic rate of the last seconds; key g
-  kTexture    ///< height of the felt surface around a touching finger, where a texture is felt; key t
+  kTexture,   ///< height of the felt surface around a touching finger, where a texture is felt; key t
+  kOffset     ///< of each finger from its HIP and from the touched object, as numbers; key o
 };
-inline constexpr std::array<std::string_view, 12> kShownPartNames{"visual",   "haptic",  "physics", "patches",
-                                                                  "hips",     "proxies", "cones",   "forces",
-                                                                  "sleeping", "frames",  "plots",   "texture"};
+inline constexpr std::array<std::string_view, 13> kShownPartNames{"visual",  "haptic",  "physics", "patches",  "hips",
+                                                                  "proxies", "cones",   "forces",  "sleeping", "frames",
+                                                                  "plots",   "texture", "offset"};
 
 }  // namespace presa

@@ -9,7 +9,6 @@ namespace presa::view {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kElevation = 26 * kDegree;
 constexpr double kUsedHeight = 0.80;  ///< fraction of the picture's height for the subject
 
 /// Constraint on the eye from two planes through it, with slope `slope` to either side of the axis, that enclose all
@@ -65,11 +64,12 @@ CameraAxes::CameraAxes(double heading, double elevation)
       forward(-std::cos(elevation) * std::sin(heading), std::cos(elevation) * std::cos(heading), -std::sin(elevation)) {
 }
 
-CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading, double used_width) {
+CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading, double used_width,
+                        double elevation) {
   const Ball all = enclose(balls);
   std::vector<Ball> seen = balls;
   seen.push_back({all.center, 0.02});
-  const CameraAxes axes(heading, kElevation);
+  const CameraAxes axes(heading, elevation);
   const double slope = std::tan(kFieldOfView / 2 * kDegree);
   const Wedge height = fit(seen, axes.up, axes.forward, kUsedHeight * slope);
   const Wedge width = fit(seen, axes.right, axes.forward, used_width * aspect * slope);

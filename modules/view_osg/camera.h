@@ -1,4 +1,5 @@
 #pragma once
+#include <numbers>
 #include <vector>
 
 #include "framework/core/math/spatial.h"
@@ -16,7 +17,8 @@ struct CameraPose {
   Vec3 target = Vec3::Zero();
 };
 
-inline constexpr double kFieldOfView = 28;  ///< vertical [deg]
+inline constexpr double kFieldOfView = 28;                         ///< vertical [deg]
+inline constexpr double kElevation = 26 * std::numbers::pi / 180;  ///< unless another is asked for [rad]
 
 /// Axes of a camera that looks from `heading` (see chooseHeading) and from `elevation` above the horizon [rad].
 struct CameraAxes {
@@ -34,10 +36,10 @@ double chooseHeading(const std::vector<Ball>& balls);
 /// Fraction of the picture's width for the subject: between the cards of the head-up display, and without cards.
 inline constexpr double kBetweenCards = 0.52, kWholeWidth = 0.88;
 
-/// Nearest view from `heading` and above that shows every ball within `used_width` of the picture, with equal margins
+/// Nearest view from `heading` and `elevation` that shows every ball within `used_width` of the picture, with equal margins
 /// on either side. Not nearer than a view of 2 cm.
 CameraPose frameSubject(const std::vector<Ball>& balls, double aspect, double heading,
-                        double used_width = kBetweenCards);
+                        double used_width = kBetweenCards, double elevation = kElevation);
 
 /// How far the balls reach from the middle of the picture, relative to the area in which frameSubject places them: 1 if
 /// they fill it, more if one of them lies beyond it or behind the eye.

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/scene/picture_options.h"
+
 namespace presa::view {
 namespace {
 
 constexpr double kTurn = 1.6;  // rotation for a drag over half of the picture's height [rad]
-constexpr double kSteepest = 89 * std::numbers::pi / 180;  // looking straight down leaves right and left undefined
-constexpr double kNearest = 0.01, kFarthest = 500;         // [m]
+constexpr double kNearest = kCameraNearest, kFarthest = kCameraFarthest;
 const double kSlope = std::tan(kFieldOfView / 2 * std::numbers::pi / 180);
 
 }  // namespace
@@ -18,7 +19,8 @@ void CameraControl::set(const CameraPose& pose) {
   const Vec3 out = pose.eye - pose.target;
   target_ = pose.target;
   distance_ = std::clamp(out.norm(), kNearest, kFarthest);
-  heading_ = std::atan2(out.x(), -out.y());
+  const bool vertical = std::hypot(out.x(), out.y()) < 1e-6 * distance_;
+  heading_ = vertical ? 0 : std::atan2(out.x(), -out.y());  // +y is upwards in a picture from above
   elevation_ = std::clamp(std::asin(std::clamp(out.z() / distance_, -1.0, 1.0)), -kSteepest, kSteepest);
 }
 

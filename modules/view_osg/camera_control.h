@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include "modules/view_osg/camera.h"
 
 namespace presa::view {
@@ -7,6 +9,8 @@ namespace presa::view {
 /// have the same effect in any window.
 class CameraControl {
  public:
+  /// Largest elevation [rad]: looking straight down leaves right and left undefined.
+  static constexpr double kSteepest = 89 * std::numbers::pi / 180;
   explicit CameraControl(double aspect) : aspect_(aspect) {}
   void setAspect(double aspect) { aspect_ = aspect; }
 

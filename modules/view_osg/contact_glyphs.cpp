@@ -54,6 +54,11 @@ Vec3 stateColor(ContactMode mode) {
   return {0.42, 0.45, 0.50};
 }
 
+ConeSize coneSize(const FingerView& view) {
+  const double height = std::clamp(kArrowLengthPerNewton * view.normal_force, kConeShortest, kConeLongest);
+  return {height, height * std::max(view.friction_static, 1e-3)};
+}
+
 ContactGlyphs::ContactGlyphs(std::size_t fingers) {
   root_->setName("contacts");
   osg::StateSet* solid = solid_->getOrCreateStateSet();
@@ -163,9 +168,7 @@ void ContactGlyphs::updateForce(const FingerView& view, FingerGlyph& finger) {
     finger.head->setMatrix(
         alongZ(view.p_WC + (length - head) * direction, direction, {kHeadRadius * thick, kHeadRadius * thick, head}));
   }
-  // as high as the normal force: the arrow's tip lies within the rim until the contact slips
-  const double height = std::clamp(kArrowLengthPerNewton * view.normal_force, kConeShortest, kConeLongest);
-  const double rim = height * std::max(view.friction_static, 1e-3);
+  const auto [height, rim] = coneSize(view);
   finger.cone->setMatrix(alongZ(view.p_WC, view.nhat_W, {rim, rim, height}));
   finger.cone_color->set(osg::Vec3(toOsg(stateColor(view.mode))));
 }

@@ -17,6 +17,13 @@ inline const Vec3 kArrowColor{1.0, 0.72, 0.02};
 inline const Vec3 kPenColor{0.16, 0.20, 0.30};
 inline const Vec3 kSkinColor{0.80, 0.46, 0.34};
 
+/// Height and radius of the friction cone of a touching finger: as high as its normal force, so that the arrow's tip lies
+/// within the rim until the contact slips [m].
+struct ConeSize {
+  double height, rim;
+};
+ConeSize coneSize(const FingerView& view);
+
 /// Glyphs of the fingers: HIP, fingertip at the proxy with a pen where the device measures the orientation, the link
 /// between them, force arrow, friction cone.
 class ContactGlyphs {

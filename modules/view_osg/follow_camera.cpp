@@ -14,18 +14,22 @@ constexpr double kSmallest = 0.65, kLargest = 1.18;
 CameraPose FollowCamera::at(double clock, const std::vector<Ball>& subject, double aspect, double used_width,
                             bool now) {
   if (now || !placed_) {
-    heading_ = chooseHeading(subject);
-    from_ = to_ = frameSubject(subject, aspect, heading_, used_width);
+    direction_ = choice_.direction(subject);
+    from_ = to_ = frame(subject, aspect, used_width);
     placed_ = true;
     return to_;
   }
   const double reach = reachInPicture(subject, to_, aspect, used_width);
   if (reach < kSmallest || reach > kLargest) {
     from_ = glide(clock);
-    to_ = frameSubject(subject, aspect, heading_, used_width);
+    to_ = frame(subject, aspect, used_width);
     left_at_ = clock;
   }
   return glide(clock);
+}
+
+CameraPose FollowCamera::frame(const std::vector<Ball>& subject, double aspect, double used_width) const {
+  return frameSubject(subject, aspect, direction_.heading, used_width, direction_.elevation);
 }
 
 CameraPose FollowCamera::glide(double clock) const {

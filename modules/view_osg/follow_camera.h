@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "modules/view_osg/camera.h"
+#include "modules/view_osg/camera_choice.h"
 
 namespace presa::view {
 
@@ -9,13 +9,17 @@ namespace presa::view {
 /// else it glides to a new place.
 class FollowCamera {
  public:
+  explicit FollowCamera(const PictureOptions& options) : choice_(options) {}
+  const CameraChoice& choice() const { return choice_; }
   /// Where the camera stands at a time of the clock [s]. `now` frames the subject at once.
   CameraPose at(double clock, const std::vector<Ball>& subject, double aspect, double used_width, bool now);
 
  private:
   CameraPose glide(double clock) const;
+  CameraPose frame(const std::vector<Ball>& subject, double aspect, double used_width) const;
 
-  double heading_ = 0;  // of the view [rad]
+  const CameraChoice choice_;
+  CameraChoice::Direction direction_{};
   CameraPose from_, to_;
   double left_at_ = -1e300;  // when the glide began [s]
   bool placed_ = false;

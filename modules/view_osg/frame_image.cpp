@@ -1,5 +1,6 @@
 #include "modules/view_osg/frame_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -18,6 +19,21 @@ constexpr int kLightSteps = 4096;
 
 double toLight(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 double toCode(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
+
+/// A pixel that covers its background by `alpha`: its colour over black is alpha times its own.
+struct Cover {
+  double alpha = 0;
+  std::array<double, 3> light{};  ///< times alpha
+
+  void add(const unsigned char* black, const unsigned char* white) {
+    int through = 0;  // of the background, summed over the three channels
+    for (std::size_t c = 0; c < 3; ++c) through += std::max(0, white[c] - black[c]);
+    const double covered = 1 - through / 765.0;
+    if (covered <= 0) return;
+    alpha += covered;
+    for (std::size_t c = 0; c < 3; ++c) light[c] += covered * toLight(std::min(1.0, black[c] / (255 * covered)));
+  }
+};
 
 struct SrgbTables {
   std::array<float, 256> light;
@@ -39,21 +55,43 @@ void FrameGrabber::operator()(osg::RenderInfo& info) const {
   image_->readPixels(0, 0, traits->width, traits->height, GL_RGB, GL_UNSIGNED_BYTE);
 }
 
-osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor) {
+osg::ref_ptr<osg::Image> shrink(osg::Image& image, int factor) {
+  if (factor == 1) return &image;
   static const SrgbTables tables;
   osg::ref_ptr<osg::Image> small = new osg::Image;
   small->allocateImage(image.s() / factor, image.t() / factor, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
   const float scale = kLightSteps / static_cast<float>(factor * factor);
+  std::vector<float> sums(3 * static_cast<std::size_t>(small->s()));
+  for (int y = 0; y < small->t(); ++y) {
+    std::ranges::fill(sums, 0.0F);
+    for (int dy = 0; dy < factor; ++dy) {
+      const unsigned char* code = image.data(0, factor * y + dy);
+      for (std::size_t x = 0; x < sums.size(); x += 3)
+        for (int dx = 0; dx < factor; ++dx)
+          for (std::size_t c = 0; c < 3; ++c) sums[x + c] += tables.light[*code++];
+    }
+    unsigned char* out = small->data(0, y);
+    for (const float sum : sums) *out++ = tables.code[static_cast<std::size_t>(sum * scale + 0.5F)];
+  }
+  return small;
+}
+
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor) {
+  osg::ref_ptr<osg::Image> small = new osg::Image;
+  small->allocateImage(over_black.s() / factor, over_black.t() / factor, 1, GL_RGBA, GL_UNSIGNED_BYTE, 1);
   for (int y = 0; y < small->t(); ++y) {
     for (int x = 0; x < small->s(); ++x) {
-      std::array<float, 3> sum{};
-      for (int dy = 0; dy < factor; ++dy)
-        for (int dx = 0; dx < factor; ++dx) {
-          const unsigned char* pixel = image.data(factor * x + dx, factor * y + dy);
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += tables.light[pixel[c]];
-        }
+      Cover sum;
+      for (int i = 0; i < factor * factor; ++i) {
+        const int from_x = factor * x + i % factor, from_y = factor * y + i / factor;
+        sum.add(over_black.data(from_x, from_y), over_white.data(from_x, from_y));
+      }
+      unsigned char* pixel = small->data(x, y);
       for (std::size_t c = 0; c < 3; ++c)
-        small->data(x, y)[c] = tables.code[static_cast<std::size_t>(std::lround(sum[c] * scale))];
+        pixel[c] = sum.alpha > 0
+                       ? static_cast<unsigned char>(std::lround(255 * toCode(std::min(1.0, sum.light[c] / sum.alpha))))
+                       : 0;
+      pixel[3] = static_cast<unsigned char>(std::lround(255 * sum.alpha / (factor * factor)));
     }
   }
   return small;

@@ -20,7 +20,10 @@ class FrameGrabber : public osg::Camera::DrawCallback {
 
 /// RGB image in which each pixel is the mean of factor x factor pixels, averaged in linear light rather than in sRGB
 /// codes.
-osg::ref_ptr<osg::Image> shrink(const osg::Image& image, int factor);
+osg::ref_ptr<osg::Image> shrink(osg::Image& image, int factor);
+
+/// RGBA image without its background, from the same frame over black and over white; averaged as by `shrink`.
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor);
 
 /// Returns "" on success, else the reason for the failure.
 std::string writePng(const osg::Image& image, const std::string& file);

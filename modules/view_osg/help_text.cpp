@@ -31,8 +31,10 @@ Lines cameraLines(bool pair) {
                    {"right drag, wheel", "nearer, farther"},
                    {"arrows, PageUp, PageDown", "fly"}});
   }
-  append(lines,
-         {{"h", "follow bodies and fingers again"}, {"click", "show the body card"}, {"double click", "look there"}});
+  append(lines, {{"h", "follow bodies and fingers again"},
+                 {"c", "tell this view as --camera"},
+                 {"click", "show the body card"},
+                 {"double click", "look there"}});
   return lines;
 }
 
@@ -52,7 +54,7 @@ Lines partLines() {
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
           {"9  0", "sleeping bodies, coordinate frames"},
-          {"g  t", "plots of the last seconds, felt texture"}};
+          {"g  t  o", "plots of the last seconds, felt texture, offsets"}};
 }
 
 }  // namespace

@@ -8,13 +8,11 @@
 
 #include "framework/device/output_stage.h"
 #include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/legend.h"
 
 namespace presa::view {
 namespace {
 
-const osg::Vec4 kInk(0.95F, 0.97F, 1.0F, 1);
-const osg::Vec4 kSoftInk(0.95F, 0.97F, 1.0F, 0.66F);
-const osg::Vec4 kPanel(0.04F, 0.06F, 0.09F, 0.62F);
 const osg::Vec4 kAlarm(1.0F, 0.42F, 0.36F, 1);
 const osg::Vec4 kGripInk(0.36F, 0.72F, 1.0F, 1);
 constexpr float kMargin = 18, kCardWidth = 262, kCardHeight = 61, kCardPitch = 66, kCardsTop = 636;
@@ -59,7 +57,8 @@ std::string outputWords(std::uint32_t status) {
 
 }  // namespace
 
-Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
+Hud::Hud(const World& world, const RunOptions& options)
+    : world_(world), level_(options.picture.hud), ink_(inkOn(options.picture.background)) {
   camera_->setName("head-up display");
   camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera_->setViewMatrix(osg::Matrixd::identity());
@@ -86,8 +85,10 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   right_->addChild(right_figures_);
   left_->addChild(left_figures_);
   center_->addChild(legend_);
+  center_->addChild(task_);
+  left_->addChild(title_);
   if (world.scene.assembly) {
-    assembly_.emplace(*center_);
+    assembly_.emplace(*task_);
     right_figures_->setNodeMask(0);
     left_figures_->setNodeMask(0);
     legend_->setNodeMask(0);
@@ -101,7 +102,26 @@ Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
   addRates(world, options.bus.has_value());
   addLegend(options.view == RunOptions::View::kWindow);
   help_->setNodeMask(0);
+  if (options.picture.legend) {
+    legend_->setNodeMask(0);  // it says the same, in small letters
+    view::addLegend(*right_, assembly_ && level_ == Level::kFull ? kHeight / 2 + AssemblyPanel::kTop + 12 : kMargin,
+                    ink_);
+  }
+  reduce();
   setAspect(16.0 / 9.0);
+}
+
+// What other options ask for (legend, parts) stays, and so does help.
+void Hud::reduce() {
+  if (level_ == Level::kFull) return;
+  for (osg::Group* part : {left_figures_.get(), right_figures_.get(), task_.get(), notes_.get()}) part->setNodeMask(0);
+  legend_->setNodeMask(0);
+  if (level_ == Level::kOff) return title_->setNodeMask(0);
+  scale_bar_.emplace(*title_, ink_);
+}
+
+void Hud::seenFrom(const CameraPose& pose) {
+  if (scale_bar_) scale_bar_->update(pose);
 }
 
 void Hud::setAspect(double aspect) {
@@ -110,56 +130,63 @@ void Hud::setAspect(double aspect) {
   right_->setMatrix(osg::Matrixd::translate(width, 0, 0));
   center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
   participant_->setMatrix(center_->getMatrix());
+  const double share = std::min(1.0, (width - 20) / legend_width_);  // a narrow picture has it smaller
+  legend_->setMatrix(osg::Matrixd::translate(0, kHeight / 2, 0) * osg::Matrixd::scale(share, share, 1) *
+                     osg::Matrixd::translate(0, -kHeight / 2, 0));
 }
 
 void Hud::showFigures(bool shown) { figures_->setNodeMask(shown ? ~0U : 0U); }
 
 void Hud::toggleHelp() {
   help_->setNodeMask(~help_->getNodeMask());
-  if (!assembly_) return;
+  if (!assembly_ || level_ != Level::kFull) return;
   right_figures_->setNodeMask(help_->getNodeMask());
   left_figures_->setNodeMask(help_->getNodeMask());
 }
 
-void Hud::tell(const std::string& message) { message_->set(message); }
+void Hud::tell(const std::string& message) {
+  if (level_ != Level::kOff) return message_->set(message);
+  std::fprintf(stderr, "\r\033[K%s\n", message.c_str());  // nothing may be drawn
+}
 
 void Hud::setBanner(const std::string& text, bool alarm) {
+  if (level_ == Level::kOff) return;
   if (!banner_)
-    banner_.emplace(*center_, 0, kHeight / 2 - (assembly_ ? 84 : 34), assembly_ ? 22 : 15, kInk, Typeface::kBold,
+    banner_.emplace(*center_, 0, kHeight / 2 - (assembly_ ? 84 : 34), assembly_ ? 22 : 15, ink_.text, Typeface::kBold,
                     Label::Align::kCenter);
   banner_->set(text);
-  banner_->setColor(alarm ? kAlarm : kInk);
+  banner_->setColor(alarm ? kAlarm : ink_.text);
 }
 
 void Hud::addTitle(const World& world) {
-  Label title(*left_, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
+  Label title(*title_, kMargin + 2, kHeight - 42, 25, ink_.text, Typeface::kBold);
   title.set(world.scene.name.empty() ? "scene" : world.scene.name);
-  time_.emplace(*left_, kMargin + 2, kHeight - 67, 16, kSoftInk, Typeface::kMono);
+  time_.emplace(*title_, kMargin + 2, kHeight - 67, 16, ink_.soft, Typeface::kMono);
 }
 
 void Hud::addCard(std::size_t index) {
   const float top = kCardsTop - kCardPitch * static_cast<float>(index), bottom = top - kCardHeight;
   const float right = kMargin + kCardWidth;
-  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, kCardHeight}, 8, kPanel));
-  osg::ref_ptr<osg::Geometry> lamp = dot(right - 16, top - 15, 5.5F, kSoftInk);
+  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, kCardHeight}, 8, ink_.panel));
+  osg::ref_ptr<osg::Geometry> lamp = dot(right - 16, top - 15, 5.5F, ink_.soft);
   left_figures_->addChild(lamp);
-  Card card{Label(*left_figures_, kMargin + 12, top - 20, 15, kInk, Typeface::kBold),
-            Label(*left_figures_, right - 28, top - 20, 13, kInk, Typeface::kRegular, Label::Align::kRight),
-            Label(*left_figures_, kMargin + 12, top - 38, 13, kInk, Typeface::kMono),
-            Label(*left_figures_, right - 12, top - 54, 11.5F, kSoftInk, Typeface::kRegular, Label::Align::kRight),
-            Bar(*left_figures_, {kMargin + 12, top - 53, 114, 7}),
+  Card card{Label(*left_figures_, kMargin + 12, top - 20, 15, ink_.text, Typeface::kBold),
+            Label(*left_figures_, right - 28, top - 20, 13, ink_.text, Typeface::kRegular, Label::Align::kRight),
+            Label(*left_figures_, kMargin + 12, top - 38, 13, ink_.text, Typeface::kMono),
+            Label(*left_figures_, right - 12, top - 54, 11.5F, ink_.soft, Typeface::kRegular, Label::Align::kRight),
+            Bar(*left_figures_, {kMargin + 12, top - 53, 114, 7}, ink_.track),
             lamp};
   cards_.push_back(std::move(card));
 }
 
 void Hud::addGrip() {
   const float top = kCardsTop - kCardPitch * static_cast<float>(cards_.size()), bottom = top - 42;
-  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, 42}, 8, kPanel));
-  Label name(*left_figures_, kMargin + 12, top - 18, 14, kInk, Typeface::kBold);
+  left_figures_->addChild(roundedPanel({kMargin, bottom, kCardWidth, 42}, 8, ink_.panel));
+  Label name(*left_figures_, kMargin + 12, top - 18, 14, ink_.text, Typeface::kBold);
   name.set("grip force");
-  grip_value_.emplace(*left_figures_, kMargin + kCardWidth - 12, top - 18, 13, kInk, Typeface::kMono,
+  grip_value_.emplace(*left_figures_, kMargin + kCardWidth - 12, top - 18, 13, ink_.text, Typeface::kMono,
                       Label::Align::kRight);
-  grip_bar_.emplace(*left_figures_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7});
+  grip_bar_.emplace(*left_figures_, Rect{kMargin + 12, top - 34, kCardWidth - 24, 7}, ink_.track);
 }
 
 void Hud::addRates(const World& world, bool bus) {
@@ -171,33 +198,35 @@ void Hud::addRates(const World& world, bool bus) {
                                                    {RateGroup::kView, rates.view}};
   if (bus) groups.emplace_back(RateGroup::kBus, rates.bus);
   const float height = 26 + kRow * static_cast<float>(groups.size());
-  right_figures_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, kPanel));
+  right_figures_->addChild(roundedPanel({-kMargin - kWidth, kTop - height, kWidth, height}, 8, ink_.panel));
   const float left = -kMargin - kWidth + 12, right = -kMargin - 12;
-  Label head_rate(*right_figures_, right - 82, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  Label head_rate(*right_figures_, right - 82, kTop - 17, 11, ink_.soft, Typeface::kRegular, Label::Align::kRight);
   head_rate.set("rate");
-  Label head_missed(*right_figures_, right, kTop - 17, 11, kSoftInk, Typeface::kRegular, Label::Align::kRight);
+  Label head_missed(*right_figures_, right, kTop - 17, 11, ink_.soft, Typeface::kRegular, Label::Align::kRight);
   head_missed.set("late ticks");
   float y = kTop - 36;
   for (const auto& [group, nominal] : groups) {
-    Label name(*right_figures_, left, y, 13, kInk);
+    Label name(*right_figures_, left, y, 13, ink_.text);
     name.set(toString(group));
     rates_.push_back({group, nominal,
-                      Label(*right_figures_, right - 82, y, 13, kInk, Typeface::kMono, Label::Align::kRight),
-                      Label(*right_figures_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
+                      Label(*right_figures_, right - 82, y, 13, ink_.text, Typeface::kMono, Label::Align::kRight),
+                      Label(*right_figures_, right, y, 13, ink_.text, Typeface::kMono, Label::Align::kRight)});
     y -= kRow;
   }
-  output_.emplace(*right_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
+  right_->addChild(notes_);
+  output_.emplace(*notes_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
 }
 
 void Hud::addLegend(bool interactive) {
   constexpr float kY = 27;
   const float width = interactive ? 904 : 826, left = -width / 2;
-  legend_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, kPanel));
+  legend_width_ = width;
+  legend_->addChild(roundedPanel({left, -kHeight / 2 + 10, width, 34}, 8, ink_.panel));
   osg::ref_ptr<osg::MatrixTransform> strip =
       new osg::MatrixTransform(osg::Matrixd::translate(left + 12, -kHeight / 2, 0));
   legend_->addChild(strip);
   const auto entry = [&](float x, const char* words) {
-    Label label(*strip, x, kY - 4.5F, 12.5F, kInk);
+    Label label(*strip, x, kY - 4.5F, 12.5F, ink_.text);
     label.set(words);
   };
   strip->addChild(dot(8, kY, 5, displayColor(kHipColor)));
@@ -214,13 +243,13 @@ void Hud::addLegend(bool interactive) {
   wedge(446, ContactMode::kStick);
   wedge(463, ContactMode::kSlip);
   entry(484, "static friction cone: stick, slip");
-  strip->addChild(polygon({{701, kY - 6}, {702.2F, kY - 6}, {702.2F, kY + 6}, {701, kY + 6}}, kSoftInk));
-  strip->addChild(polygon({{719, kY - 6}, {720.2F, kY - 6}, {720.2F, kY + 6}, {719, kY + 6}}, kSoftInk));
-  strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, kSoftInk));
+  strip->addChild(polygon({{701, kY - 6}, {702.2F, kY - 6}, {702.2F, kY + 6}, {701, kY + 6}}, ink_.soft));
+  strip->addChild(polygon({{719, kY - 6}, {720.2F, kY - 6}, {720.2F, kY + 6}, {719, kY + 6}}, ink_.soft));
+  strip->addChild(polygon({{701, kY - 0.6F}, {720, kY - 0.6F}, {720, kY + 0.6F}, {701, kY + 0.6F}}, ink_.soft));
   entry(727, "grid 5 cm");
   if (interactive) entry(813, "? help");
-  message_.emplace(*center_, 0, assembly_ ? AssemblyPanel::kTop + 14 : -kHeight / 2 + 56, 13, kInk, Typeface::kRegular,
-                   Label::Align::kCenter);
+  message_.emplace(*center_, 0, assembly_ ? AssemblyPanel::kTop + 14 : -kHeight / 2 + 56, 13, ink_.text,
+                   Typeface::kRegular, Label::Align::kCenter);
 }
 
 void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines) {
@@ -232,9 +261,10 @@ void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines)
   help_->addChild(roundedPanel({-kHalf, -top, 2 * kHalf, 2 * top}, 12, {0.04F, 0.06F, 0.09F, 0.9F}));
   float y = top - 25;
   for (const auto& [keys, what] : lines) {
-    Label(*help_, keys.empty() ? -kHalf + 24 : -kHalf + 40, y, 14, keys.empty() ? kSoftInk : kInk, Typeface::kBold)
+    Label(*help_, keys.empty() ? -kHalf + 24 : -kHalf + 40, y, 14, keys.empty() ? ink_.soft : ink_.text,
+          Typeface::kBold)
         .set(keys.empty() ? what : keys);
-    if (!keys.empty()) Label(*help_, 0, y, 14, kInk).set(what);
+    if (!keys.empty()) Label(*help_, 0, y, 14, ink_.text).set(what);
     y -= kLine;
   }
 }
@@ -261,7 +291,7 @@ void Hud::updateRates(const GroupTimings& timings) {
     if (mean_ns > 0) {
       line.rate.set(print("%.0f / %.0f Hz", 1e9 / mean_ns, line.nominal));
       line.missed.set(print("%llu", static_cast<unsigned long long>(timing->missed + timing->skipped)));
-      line.missed.setColor(timing->missed + timing->skipped > 0 ? kAlarm : kInk);
+      line.missed.setColor(timing->missed + timing->skipped > 0 ? kAlarm : ink_.text);
     } else {
       line.rate.set(known && !timing ? "not needed" : print("%.0f Hz", line.nominal));
       line.missed.set("\xe2\x80\x93");
@@ -281,7 +311,7 @@ void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers,
   if (assembly_ && frame.guidance) assembly_->update(world_.scene, *frame.guidance);
   output_->set(outputWords(frame.forces.status));
   // fading at the start and end of every run is normal
-  output_->setColor((frame.forces.status & ~kOutputFading) == 0 ? kSoftInk : kAlarm);
+  output_->setColor((frame.forces.status & ~kOutputFading) == 0 ? ink_.soft : kAlarm);
 }
 
 }  // namespace presa::view

@@ -12,6 +12,8 @@
 #include "modules/view_osg/assembly_panel.h"
 #include "modules/view_osg/finger_view.h"
 #include "modules/view_osg/hud_widgets.h"
+#include "modules/view_osg/ink.h"
+#include "modules/view_osg/scale_bar.h"
 
 namespace presa::view {
 
@@ -39,7 +41,9 @@ class Hud {
   void toggleHelp();
   /// Shows a line at the top, until the next call.
   void setBanner(const std::string& text, bool alarm);
-  /// Shows a line above the legend, until the next call.
+  /// Moves the scale bar, where there is one.
+  void seenFrom(const CameraPose& pose);
+  /// Shows a line above the legend, until the next call; on the terminal where the display is off.
   void tell(const std::string& message);
 
  private:
@@ -53,6 +57,8 @@ class Hud {
     double nominal;
     Label rate, missed;
   };
+  using Level = PictureOptions::Hud;
+  void reduce();
   void addTitle(const World& world);
   void addCard(std::size_t index);
   void addGrip();
@@ -71,13 +77,19 @@ class Hud {
   osg::ref_ptr<osg::Group> help_ = new osg::Group;
   /// In an assembly task, rates and fingers are shown only with the help, and the legend gives way to the assembly
   /// panel.
-  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group, legend_ = new osg::Group;
+  osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group;
+  osg::ref_ptr<osg::MatrixTransform> legend_ = new osg::MatrixTransform;
+  osg::ref_ptr<osg::Group> title_ = new osg::Group, task_ = new osg::Group, notes_ = new osg::Group;
   const World& world_;
+  const Level level_;
+  const Ink ink_;
   std::optional<AssemblyPanel> assembly_;
   std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;
+  std::optional<ScaleBar> scale_bar_;
   std::vector<Card> cards_;
   std::vector<RateLine> rates_;
+  float legend_width_ = 0;
   double grip_scale_ = 0;  ///< full bar: the most that the devices can give [N]
 };
 

@@ -79,8 +79,8 @@ void recolor(osg::Geometry& geometry, const osg::Vec4& color) {
   colors.dirty();
 }
 
-Bar::Bar(osg::Group& parent, const Rect& rect) : rect_(rect) {
-  parent.addChild(roundedPanel(rect, rect.height / 2, {1, 1, 1, 0.16F}));
+Bar::Bar(osg::Group& parent, const Rect& rect, const osg::Vec4& track) : rect_(rect) {
+  parent.addChild(roundedPanel(rect, rect.height / 2, track));
   fill_ = roundedPanel(rect, rect.height / 2, {1, 1, 1, 1});
   parent.addChild(fill_);
 }

@@ -38,7 +38,7 @@ void recolor(osg::Geometry& geometry, const osg::Vec4& color);
 /// A bar for a value between 0 and 1, filled from the left.
 class Bar {
  public:
-  Bar(osg::Group& parent, const Rect& rect);
+  Bar(osg::Group& parent, const Rect& rect, const osg::Vec4& track = {1, 1, 1, 0.16F});
   void set(double share, const osg::Vec4& color);
 
  private:

@@ -1,59 +1,97 @@
+#include <algorithm>
 #include <osg/GLObjects>
 #include <osgViewer/Viewer>
 
+#include "modules/view_osg/camera_choice.h"
 #include "modules/view_osg/follow_camera.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/gl_context_egl.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/renderer.h"
+#include "modules/view_osg/retained_space.h"
 
 namespace presa::view {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720, kSupersample = 2;
+constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered at twice its size [pixel]
+
+int supersampleOf(const PictureOptions& options) { return std::max(options.width, options.height) > kSmoothed ? 1 : 2; }
 
 class OffscreenRenderer final : public Renderer {
  public:
-  explicit OffscreenRenderer(Picture& picture)
-      : picture_(picture), context_(kSupersample * kWidth, kSupersample * kHeight) {
-    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, kSupersample * kWidth, kSupersample * kHeight);
+  OffscreenRenderer(Picture& picture, const PictureOptions& options, bool film)
+      : picture_(picture),
+        follow_(options),
+        background_(options.background),
+        supersample_(film ? 1 : supersampleOf(options)),
+        aspect_(static_cast<double>(options.width) / options.height),
+        context_(supersample_ * options.width, supersample_ * options.height) {
+    const int width = supersample_ * options.width, height = supersample_ * options.height;
+    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, width, height);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setKeyEventSetsDone(0);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
-    viewer_.setSceneData(picture.root());
+    if (film) {
+      picture.setQuick(true);
+      retained_.emplace(picture);
+      retained_->setSize(width, height, supersampleOf(options));
+    }
+    viewer_.setSceneData(root());
     osg::Camera* camera = viewer_.getCamera();
     camera->setFinalDrawCallback(grabber_);
-    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
-    picture.setSize(kSupersample * kWidth, kSupersample * kHeight);
-    picture.hud().setAspect(static_cast<double>(kWidth) / kHeight);
+    camera->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
+    clearTo(1);  // seen only without a sky
+    if (!film) picture.setSize(width, height);
+    picture.hud().setAspect(aspect_);
     viewer_.realize();
   }
 
   ~OffscreenRenderer() override {
     context_.makeCurrent();
     const unsigned id = window_->getState()->getContextID();
-    picture_.root()->releaseGLObjects(window_->getState());
+    root()->releaseGLObjects(window_->getState());
     viewer_.setSceneData(nullptr);
     osg::deleteAllGLObjects(id);
   }
 
   void render() override {
-    const CameraPose pose = follow_.at(picture_.time(), picture_.subject(), static_cast<double>(kWidth) / kHeight,
-                                       picture_.usedWidth(), false);
-    viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
+    const CameraPose pose = cameraNow();
+    osg::Camera& camera = *viewer_.getCamera();
+    camera.setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), toOsg(upOf(pose)));
+    picture_.seenFrom(pose);
+    if (retained_) retained_->prepare(camera.getViewMatrix() * camera.getProjectionMatrix(), picture_.time(), true);
     viewer_.frame();
   }
   osg::ref_ptr<osg::Image> capture() override {
-    grabber_->arm();
-    render();
-    return shrink(*grabber_->take(), kSupersample);
+    const osg::ref_ptr<osg::Image> frame = grab();
+    if (background_ != PictureOptions::Background::kTransparent) return shrink(*frame, supersample_);
+    clearTo(0);
+    const osg::ref_ptr<osg::Image> over_black = grab();
+    clearTo(1);
+    return cutOut(*over_black, *frame, supersample_);
   }
   bool closed() const override { return false; }
   bool takePictureRequest() override { return false; }
 
  private:
+  CameraPose cameraNow() {
+    if (const std::optional<CameraPose> place = follow_.choice().place()) return *place;
+    return follow_.at(picture_.time(), picture_.subject(), aspect_, picture_.usedWidth(), false);
+  }
+  osg::Group* root() { return retained_ ? retained_->root() : picture_.root(); }
+  osg::ref_ptr<osg::Image> grab() {
+    grabber_->arm();
+    render();
+    return grabber_->take();
+  }
+  void clearTo(float grey) { viewer_.getCamera()->setClearColor({grey, grey, grey, 1}); }
+
   Picture& picture_;
-  FollowCamera follow_;  // in films
+  std::optional<RetainedSpace> retained_;  // for films
+  FollowCamera follow_;
+  const PictureOptions::Background background_;
+  const int supersample_;
+  const double aspect_;
   EglContext context_;
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;
@@ -62,8 +100,8 @@ class OffscreenRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture) {
-  return std::make_unique<OffscreenRenderer>(picture);
+std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options, bool film) {
+  return std::make_unique<OffscreenRenderer>(picture, options, film);
 }
 
 }  // namespace presa::view

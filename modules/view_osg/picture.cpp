@@ -8,6 +8,7 @@
 namespace presa::view {
 namespace {
 
+constexpr float kBelowRates = 540;    ///< upper edge of a panel below the rates [lines]
 constexpr double kFloorRadius = 1.2;  ///< minimum radius of the floor [m]
 constexpr double kSunset = 2;         ///< time of the change to evening sun after completion [s]
 constexpr double kSeen = 3e-4;        ///< smaller motions are below a quarter of a pixel, in radii of the subject
@@ -37,7 +38,12 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       hud_(*world_, options),
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
-      plots_(hud_.left(), *world_) {
+      plots_(hud_.left(), *world_),
+      ink_(inkOn(options.picture.background)),
+      panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
+              parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots]),
+      whole_cones_(options.picture.hud != PictureOptions::Hud::kFull || options.picture.camera),
+      offsets_top_(options.picture.hud == PictureOptions::Hud::kFull ? kBelowRates : Hud::kHeight - 18) {
   addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
@@ -51,11 +57,14 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
                           neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
-  const osg::ref_ptr<osg::Node> background = makeBackground();
-  space_->addChild(background);
+  osg::ref_ptr<osg::Node> background;
+  if (options.picture.background == PictureOptions::Background::kScene) {
+    background = makeBackground();
+    space_->addChild(background);
+    space_->addChild(floor_);
+  }
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
-  space_->addChild(floor_);
   still_ = {lighting_.passes(), bodies_.root(), background, floor_};
   watch_.emplace(bodies_, lighting_.directions(), lowestPoint(*world_));
   root_->getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 1)));
@@ -119,6 +128,9 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
     subject_.push_back({finger.p_WP, finger.radius});
     if (finger.oriented) subject_.push_back({finger.p_WP + kPenLength * (finger.q_WT * Vec3::UnitZ()), 0.0});
     if (finger.touches()) subject_.push_back({finger.p_WC + kArrowLengthPerNewton * finger.f_H_W, 0.0});
+    if (!finger.touches() || !whole_cones_ || !parts_[ShownPart::kCones]) continue;
+    const auto [height, rim] = coneSize(finger);
+    subject_.push_back({finger.p_WC + height * finger.nhat_W, rim});
   }
 }
 
@@ -137,6 +149,13 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
   }
   if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
   return watch_->update({frame.X_WB, *glyphs_.casters(), others, appearance, kSeen * radius});
+}
+
+void Picture::showOffsets(bool shown, const ViewFrame& frame) {
+  if (shown && !offsets_) offsets_.emplace(hud_.right(), offsets_top_, *world_, ink_);
+  if (!offsets_) return;
+  offsets_->show(shown);
+  if (shown) offsets_->update(frame);
 }
 
 void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
@@ -161,6 +180,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   card_.update(frame.X_WB);
   time_bar_.update(frame.time);
   plots_.update(parts[ShownPart::kPlots]);
+  showOffsets(parts[ShownPart::kOffset], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   if (lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius)) watch_->changeAll();

@@ -13,6 +13,7 @@
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
 #include "modules/view_osg/neighbourhood_lines.h"
+#include "modules/view_osg/offset_panel.h"
 #include "modules/view_osg/overlays.h"
 #include "modules/view_osg/participant_panel.h"
 #include "modules/view_osg/plots.h"
@@ -49,8 +50,10 @@ class Picture {
   void choose(std::optional<std::size_t> body) { card_.choose(body); }
   /// The balls that must be in the picture: free bodies (all bodies when none is free) and fingers.
   const std::vector<Ball>& subject() const { return subject_; }
-  /// Argument of frameSubject: in an assembly task there are no cards at the sides.
-  double usedWidth() const { return world_->scene.assembly || screen_ ? kWholeWidth : kBetweenCards; }
+  /// Argument of frameSubject: in an assembly task and without figures there are no cards at the sides.
+  double usedWidth() const { return world_->scene.assembly || screen_ || !panels_ ? kWholeWidth : kBetweenCards; }
+  /// The camera of the next frame.
+  void seenFrom(const CameraPose& pose) { hud_.seenFrom(pose); }
   /// Simplifies the picture for software rendering.
   void setQuick(bool quick);
   /// Size of the three-dimensional part [pixel].
@@ -59,6 +62,7 @@ class Picture {
  private:
   ShownParts partsNow() const;
   bool changed(const ViewFrame& frame, const std::vector<FingerView>& fingers, const ShownParts& parts, double radius);
+  void showOffsets(bool shown, const ViewFrame& frame);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
 
   std::shared_ptr<const World> world_;
@@ -77,6 +81,11 @@ class Picture {
   BodyCard card_;
   TimeBar time_bar_;
   Plots plots_;
+  std::optional<OffsetPanel> offsets_;  // once it is shown
+  const Ink ink_;
+  const bool panels_;       // something is drawn at the sides
+  const bool whole_cones_;  // the camera keeps them in the picture
+  const float offsets_top_;
   std::optional<ParticipantScreen> screen_;  // only for a participant
   std::optional<ParticipantPanel> panel_;    // with screen_
   std::vector<Ball> subject_;

@@ -13,7 +13,7 @@ class Renderer {
   virtual ~Renderer() = default;
   /// Handles the user's input, then draws the picture.
   virtual void render() = 0;
-  /// Draws and returns the frame, RGB.
+  /// Draws and returns the frame, RGB; RGBA for a transparent background.
   virtual osg::ref_ptr<osg::Image> capture() = 0;
   /// True when the user has closed the window or pressed Esc; drawing then has no effect.
   virtual bool closed() const = 0;
@@ -24,10 +24,12 @@ class Renderer {
   virtual double sharpness() const { return 1; }
 };
 
-/// Without a display: 1280 x 720, rendered at twice the size and averaged.
-std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture);
-/// In a window on DISPLAY. The objects in `controls` must outlive it. Throws std::runtime_error when there is no
-/// display.
-std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls);
+/// Without a display: rendered at twice the size and averaged. Pictures above 4096 pixels are rendered as they are. A
+/// `film` of many pictures is drawn as in a window, where only what changed is drawn.
+std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options, bool film);
+/// In a window on DISPLAY, at first with the size and the camera of the options. The objects in `controls` must outlive
+/// it. Throws std::runtime_error when there is no display.
+std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls,
+                                             const PictureOptions& options);
 
 }  // namespace presa::view

@@ -21,9 +21,10 @@ std::string seconds(double time) {
 
 }  // namespace
 
-void TimeBar::offer(const TimeControl& time_control, double length) {
+void TimeBar::offer(const TimeControl& time_control, double length, bool drawn) {
   time_control_ = &time_control;
   length_ = length;
+  if (!drawn) return;
   pace_.emplace(center_, 0, bottom_ + 18, 14, kInk, Typeface::kBold, Label::Align::kCenter);
   if (length <= 0) return;
   bar_.emplace(center_, Rect{-kHalfWidth, bottom_, 2 * kHalfWidth, kThick});
@@ -34,7 +35,7 @@ void TimeBar::offer(const TimeControl& time_control, double length) {
 
 void TimeBar::update(double time) {
   time_ = time;
-  if (time_control_ == nullptr) return;
+  if (!pace_) return;
   if (bar_) {
     bar_->set(time / length_, kFilled);
     now_->set(seconds(time));

@@ -12,8 +12,8 @@ class TimeBar {
  public:
   /// `center`: origin in the middle of a picture of 720 lines, `bottom` in its coordinates.
   TimeBar(osg::Group& center, float bottom) : center_(center), bottom_(bottom) {}
-  /// `length`: duration of the recording [s]; 0: no bar. `time_control` must outlive this.
-  void offer(const TimeControl& time_control, double length);
+  /// `length`: duration of the recording [s]; 0: no bar. `time_control` must outlive this. Not `drawn`: only keys.
+  void offer(const TimeControl& time_control, double length, bool drawn = true);
   void update(double time);
   /// The moment at a point of the picture, in halves of its height from the middle; none: the point is off the bar.
   std::optional<double> momentAt(double right, double up, bool wherever_up = false) const;

@@ -7,7 +7,7 @@ namespace presa::view {
 /// Collects keys as a terminal would send them, and the size of the window.
 class TypedKeys final : public osgGA::GUIEventHandler {
  public:
-  TypedKeys(int width, int height) : width(width), height(height) {}
+  TypedKeys(int w, int h) : width(w), height(h) {}
 
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override {
     if (event.getEventType() == osgGA::GUIEventAdapter::RESIZE) {

@@ -68,7 +68,7 @@ void Video::start(int width, int height) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height),
                     rate = std::to_string(std::lround(kRate));
   // OSG's rows start at the bottom; H.264 with chroma subsampling requires even sizes
-  std::array<const char*, 25> words{"ffmpeg",      "-y",         "-loglevel", "error",
+  std::array<const char*, 27> words{"ffmpeg",      "-y",         "-loglevel", "error",
                                     "-f",          "rawvideo",   "-pix_fmt",  "rgb24",
                                     "-s",          size.c_str(), "-r",        rate.c_str(),
                                     "-i",          "-",          "-vf",       "vflip,crop=trunc(iw/2)*2:trunc(ih/2)*2",

@@ -26,7 +26,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
       options_(options),
       plugin_parts_(PluginParts::of(world_)) {
   // Mesa's software renderer would use all cores, including the haptic thread's. Set before any thread starts.
-  setenv("LP_NUM_THREADS", "1", 0);
+  if (options_.realtime) setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
   if (!options_.video.empty()) video_.emplace(options_.video);
@@ -53,14 +53,15 @@ void ViewModule::start() {
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
-    if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
+    if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
     renderer_ = windowed()
                     ? makeWindowRenderer(*picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
                                          {.pointer = pointer_ ? &*pointer_ : nullptr,
                                           .time = time_,
                                           .undo = world_->scene.assembly.has_value(),
-                                          .participant = options_.participant.has_value()})
-                    : makeOffscreenRenderer(*picture_);
+                                          .participant = options_.participant.has_value()},
+                                         options_.picture)
+                    : makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),

@@ -1,7 +1,10 @@
 #include "modules/view_osg/window_input.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace presa::view {
 namespace {
@@ -131,6 +134,12 @@ bool WindowInput::key(const Event& event) {
     case 'h':
       frame_requested = following = true;
       return true;
+    case 'c':
+      tellCamera();
+      return true;
+    case 'o':
+      picture_.parts().toggle(ShownPart::kOffset);
+      return true;
     case 'g':
       picture_.parts().toggle(ShownPart::kPlots);
       return true;
@@ -154,6 +163,14 @@ bool WindowInput::key(const Event& event) {
   if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
     return pairKey(key, has(event, Event::MODKEY_SHIFT));
   return cameraKey(key);
+}
+
+void WindowInput::tellCamera() {
+  const CameraPose pose = camera_.pose();
+  const std::string option = "--camera " + cameraText({pose.eye, pose.target});
+  picture_.hud().tell(option);
+  std::fprintf(stdout, "%s%s\n", isatty(STDOUT_FILENO) != 0 ? "\r\033[K" : "", option.c_str());  // to be copied
+  std::fflush(stdout);
 }
 
 bool WindowInput::cameraKey(int key) {

@@ -29,6 +29,9 @@ class WindowInput : public osgGA::GUIEventHandler {
   WindowInput(Picture& picture, CameraControl& camera, const Controls& controls);
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override;
 
+  /// Width over height of the window; resizing it does the same.
+  void setAspect(double aspect) { aspect_ = aspect; }
+
   Inputs inputs;
   bool picture_requested = false;
   bool frame_requested = true;  ///< frame the subject at once; set for the first frame
@@ -41,6 +44,7 @@ class WindowInput : public osgGA::GUIEventHandler {
   void click(const osgGA::GUIEventAdapter& event, bool twice);
   void scroll(const osgGA::GUIEventAdapter& event);
   bool key(const osgGA::GUIEventAdapter& event);
+  void tellCamera();
   bool cameraKey(int key);
   bool pairKey(int key, bool fine);
   bool timeKey(int key);

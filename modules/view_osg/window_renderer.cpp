@@ -15,14 +15,20 @@
 namespace presa::view {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720;
-
 class WindowRenderer final : public Renderer {
  public:
-  WindowRenderer(Picture& picture, const std::string& title, const Controls& controls)
-      : picture_(picture), keep_(controls.participant), input_(new WindowInput(picture, camera_, controls)) {
-    const WindowContext window =
-        controls.participant ? participantWindow(title, kWidth, kHeight) : openWindow(title, kWidth, kHeight);
+  WindowRenderer(Picture& picture, const std::string& title, const Controls& controls, const PictureOptions& options)
+      : picture_(picture),
+        keep_(controls.participant),
+        follow_(options),
+        camera_(static_cast<double>(options.width) / options.height),
+        input_(new WindowInput(picture, camera_, controls)) {
+    const WindowContext window = controls.participant ? participantWindow(title, options.width, options.height)
+                                                      : openWindow(title, options.width, options.height);
+    if (const std::optional<CameraPose> place = follow_.choice().place()) {
+      camera_.set(*place);
+      input_->following = false;
+    }
     window_ = window.context;
     if (window.software) {
       picture.setQuick(true);
@@ -37,7 +43,7 @@ class WindowRenderer final : public Renderer {
     camera->setGraphicsContext(window_);
     const osg::GraphicsContext::Traits& size = *window_->getTraits();
     camera->setViewport(0, 0, size.width, size.height);
-    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(kWidth) / kHeight, 0.01, 10);
+    camera->setProjectionMatrixAsPerspective(kFieldOfView, static_cast<double>(size.width) / size.height, 0.01, 10);
     camera->setFinalDrawCallback(grabber_);
     viewer_.addEventHandler(input_);
     viewer_.setSceneData(retained_ ? retained_->root() : picture.root());
@@ -45,6 +51,7 @@ class WindowRenderer final : public Renderer {
     for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
       help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
+    input_->setAspect(static_cast<double>(size.width) / size.height);
     setSize(size.width, size.height, 1);
     viewer_.realize();
     if (!viewer_.isRealized()) throw std::runtime_error("the window opened, but it gives no OpenGL context");
@@ -94,6 +101,7 @@ class WindowRenderer final : public Renderer {
     if (input_->following) follow();
     const CameraPose pose = camera_.pose();
     viewer_.getCamera()->setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), {0, 0, 1});
+    picture_.seenFrom(pose);
     viewer_.updateTraversal();
     const osg::Camera& camera = *viewer_.getCamera();
     if (retained_)
@@ -117,10 +125,10 @@ class WindowRenderer final : public Renderer {
 
   Picture& picture_;
   const bool keep_;  // the window stays open
-  CameraControl camera_{static_cast<double>(kWidth) / kHeight};
+  FollowCamera follow_;
+  CameraControl camera_;
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<WindowInput> input_;
-  FollowCamera follow_;
   std::optional<RetainedSpace> retained_;  // only with software rendering
   FrameBudget budget_;
   int width_ = 0, height_ = 0;
@@ -131,8 +139,9 @@ class WindowRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls) {
-  return std::make_unique<WindowRenderer>(picture, title, controls);
+std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls,
+                                             const PictureOptions& options) {
+  return std::make_unique<WindowRenderer>(picture, title, controls, options);
 }
 
 }  // namespace presa::view

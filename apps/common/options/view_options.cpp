@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "framework/core/diagnostics/printable.h"
 #include "framework/session/shown_parts.h"
 
 namespace presa {
@@ -15,7 +16,28 @@ RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn) {
   return drawn ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
 }
 
-void addShowOption(Command command, std::vector<std::string>& show) {
+void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show) {
+  command
+      .option(
+          "--camera", asked.camera,
+          "where from: EYE:TARGET in metres, as 0.5,-0.8,0.4:0,0,0.1, or front, back, left, right, top or iso, as\n"
+          "near as bodies and fingers fit (default: chosen so that fingers are seen); the key c of the window tells\n"
+          "its own")
+      .kind("EYE:TARGET");
+  command
+      .option("--picture-size", asked.size, "pixels of a picture, a video, or the window at first (default: 1280x720)")
+      .kind("WxH");
+  command
+      .option("--hud", asked.hud,
+              "figures over the scene: off, minimal (scene, time, scale bar) or full; what other options ask for stays")
+      .oneOf({"off", "minimal", "full"})
+      .showDefault();
+  command.flag("--legend", asked.legend, "explain arrows, cones and colours in the picture, large enough for print");
+  command
+      .option("--background", asked.background,
+              "scene, or without floor and sky: white, or transparent (PNG with alpha); off-screen pictures only")
+      .oneOf({"scene", "white", "transparent"})
+      .showDefault();
   std::string parts;
   for (const std::string_view part : kShownPartNames) (parts += parts.empty() ? "" : ", ") += part;
   command
@@ -24,6 +46,28 @@ void addShowOption(Command command, std::vector<std::string>& show) {
                   ";\nno-PART leaves one out")
       .separatedBy(',')
       .oneValueEach();
+}
+
+PictureOptions pictureOf(const PictureArguments& asked, const RunOptions& options, Diagnostics& diagnostics) {
+  PictureOptions picture;
+  if (!asked.camera.empty()) picture.camera = parseCamera(asked.camera, diagnostics);
+  if (!asked.size.empty()) parsePictureSize(asked.size, picture, diagnostics);
+  if (asked.hud != "full") picture.hud = asked.hud == "off" ? PictureOptions::Hud::kOff : PictureOptions::Hud::kMinimal;
+  picture.legend = asked.legend;
+  if (asked.background == "scene") return picture;
+  const bool transparent = asked.background == "transparent";
+  picture.background = transparent ? PictureOptions::Background::kTransparent : PictureOptions::Background::kWhite;
+  std::string trouble;
+  if (options.view == RunOptions::View::kWindow)
+    trouble = "a window always shows floor and sky";
+  else if (!options.video.empty())
+    trouble = "a video always shows floor and sky";
+  else if (transparent && !options.screenshot.empty() && !options.screenshot.ends_with(".png"))
+    trouble = "only a PNG can be transparent, found --screenshot " + printable(options.screenshot);
+  if (!trouble.empty())
+    diagnostics.error(708, {"--background", 0, 0}, trouble + ", found --background " + asked.background,
+                      "a still picture: --view offscreen --screenshot FILE.png");
+  return picture;
 }
 
 }  // namespace presa

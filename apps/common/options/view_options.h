@@ -11,7 +11,18 @@ namespace presa {
 /// watched `live` and there is a display, else off-screen if a file is `drawn`, else none.
 RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn);
 
-/// Adds --show PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
-void addShowOption(Command command, std::vector<std::string>& show);
+/// What the user asks of a picture, as typed.
+struct PictureArguments {
+  std::string camera, size, hud = "full", background = "scene";
+  bool legend = false;
+};
+
+/// Adds the options of everything that draws: --camera, --picture-size, --hud, --legend, --background, and --show
+/// PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
+void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show);
+
+/// The same as the view takes it, for a picture that goes where `options` says (view, video, screenshot). Errors: E706
+/// camera, E707 size, E708 a background that can only be drawn off-screen.
+PictureOptions pictureOf(const PictureArguments& asked, const RunOptions& options, Diagnostics& diagnostics);
 
 }  // namespace presa

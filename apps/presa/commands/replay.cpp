@@ -20,6 +20,7 @@ namespace {
 struct ReplayArguments {
   std::string file, page, view;
   RunOptions shown;  ///< options of the view
+  PictureArguments picture;
   double speed = 1;
   bool verify = false;
 };
@@ -32,7 +33,6 @@ RunOptions::View viewOf(const ReplayArguments& arguments) {
 int showRecording(const ReplayArguments& arguments, const Recording& recording, const RecordedSamples& samples) {
   Diagnostics diagnostics;
   RunOptions options = arguments.shown;
-  options.view = viewOf(arguments);
   options.bus = BusSettings{.network = "none"};
   const Loaded loaded =
       loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, options, diagnostics);
@@ -105,14 +105,18 @@ int showFlight(const std::string& file, const RecordedSamples& samples) {
   return kExitOk;
 }
 
-int runReplay(const ReplayArguments& arguments) {
+int runReplay(ReplayArguments arguments) {
+  Diagnostics asked;
+  arguments.shown.view = viewOf(arguments);
+  arguments.shown.picture = pictureOf(arguments.picture, arguments.shown, asked);
+  if (asked.hasErrors()) throw InputError(asked);
   std::string three_js;
   if (!arguments.page.empty()) {  // before a long recording is read
     replay_page::checkPlace(arguments.page);
     three_js = replay_page::threeJs();
   }
   const Recording recording = recordPlugin().read(arguments.file);
-  const bool shown = viewOf(arguments) != RunOptions::View::kNone;
+  const bool shown = arguments.shown.view != RunOptions::View::kNone;
   if (recording.first_tick > 0 || !arguments.page.empty() || shown) {
     const RecordedSamples samples = recordPlugin().samples(arguments.file);
     if (!arguments.page.empty()) writeFileAtomically(arguments.page, replay_page::page(recording, samples, three_js));
@@ -161,7 +165,7 @@ void addReplay(Command app, int& status) {
   command.option("--screenshot", arguments->shown.screenshot, "PNG of one moment");
   command.option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
   command.option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
-  addShowOption(command, arguments->shown.show);
+  addPictureOptions(command, arguments->picture, arguments->shown.show);
   command.option("--page", arguments->page,
                  "one HTML page: the motion in 3-D and its plots under one time scrubber; opens offline (libjs-three)");
   command.footer(

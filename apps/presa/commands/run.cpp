@@ -22,6 +22,7 @@ struct RunArguments {
   RunOptions options;
   bool lockstep = false, realtime = false, quiet = false, plug_ins = false;
   std::string view;  ///< empty: automatic
+  PictureArguments picture;
   double speed = 0;  ///< 0: default
   std::string summary, report;
 };
@@ -78,6 +79,7 @@ int run(RunArguments arguments) {
 
   Diagnostics diagnostics;
   if (arguments.plug_ins) return printPlugIns(arguments, diagnostics);
+  arguments.options.picture = pictureOf(arguments.picture, arguments.options, diagnostics);
   Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
   if (!diagnostics.hasErrors() && arguments.options.bus_commands && !loaded.options.bus)
@@ -140,7 +142,7 @@ void addRun(Command app, int& status) {
           "simulated seconds in a second, of a lockstep run (default: with a window 1, where the keys [ and ] change\n"
           "it; without as many as the machine makes)")
       .positive();
-  addShowOption(command, a->options.show);
+  addPictureOptions(command, a->picture, a->options.show);
   addBusOptions(command, a->options.bus, "publish the state for presa view --join");
   addBusCommandsOption(command, a->options.bus_commands);
   command.option("--summary", a->summary, "results as JSON");

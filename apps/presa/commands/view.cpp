@@ -10,6 +10,7 @@ void addView(Command app, int& status) {
   auto bus = std::make_shared<std::optional<BusSettings>>();
   auto join = std::make_shared<bool>(false);
   auto view = std::make_shared<std::string>();
+  auto picture = std::make_shared<PictureArguments>();
   Command command = app.command("view", "Show a run that another process, or another machine, publishes");
   command.flag("--join", *join, "join the run on the bus (presa run SCENE --bus loopback)").required();
   command.option("SCENE", settings->scene,
@@ -23,7 +24,7 @@ void addView(Command app, int& status) {
   command.option("--screenshot-at", settings->screenshot_time,
                  "simulated time of the run for it [s] (default: when the viewer ends)");
   addMeshesOption(command, settings->meshes);
-  addShowOption(command, settings->show);
+  addPictureOptions(command, *picture, settings->show);
   command.flag("--quiet", settings->quiet, "no status line");
   command.footer(
       "The picture is one period (5 ms) behind, interpolated. Without the bus it freezes and says so.\n"
@@ -33,6 +34,9 @@ void addView(Command app, int& status) {
   command.action([=, &status] {
     settings->bus = bus->value_or(BusSettings{});
     settings->view = chooseView(*view, true, !settings->screenshot.empty());
+    Diagnostics diagnostics;
+    settings->picture = pictureOf(*picture, {.view = settings->view, .screenshot = settings->screenshot}, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
     status = showRemote(*settings);
   });
 }

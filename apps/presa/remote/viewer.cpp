@@ -61,6 +61,7 @@ RunOptions optionsOf(const ViewerSettings& settings) {
   options.screenshot = settings.screenshot;
   options.screenshot_time = settings.screenshot_time;
   options.show = settings.show;
+  options.picture = settings.picture;
   options.bus = settings.bus;
   return options;
 }

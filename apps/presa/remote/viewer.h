@@ -17,6 +17,7 @@ struct ViewerSettings {
   std::string screenshot;
   double screenshot_time = -1;    ///< of the run [s]; -1: when the viewer ends
   std::vector<std::string> show;  ///< as RunOptions
+  PictureOptions picture;
   bool quiet = false;
 };
 

@@ -38,7 +38,8 @@ TEST(OnDisplay, DISABLED_DrawsFiveFrames) {
 /// A window driven through OSG's event queue, like X events. The scene does not move.
 class Driven {
  public:
-  explicit Driven(bool pointer = false) : module_(run_.world, run_.options), feed_(module_) {
+  explicit Driven(bool pointer = false, const PictureOptions& asked = {})
+      : run_(makePinchRun(RunOptions::View::kWindow, "")), module_(run_.world, optionsWith(asked)), feed_(module_) {
     if (pointer) module_.offerPointer({0, 1});
     // a private folder for pictures saved by key
     const std::string folder = testing::TempDir() + "presa_view_" + std::to_string(getpid());
@@ -123,6 +124,10 @@ class Driven {
     std::filesystem::remove(picture());
     return bytes.str();
   }
+  std::pair<int, int> size() const {
+    const osg::Viewport& viewport = *(*window_->getCameras().begin())->getViewport();
+    return {static_cast<int>(viewport.width()), static_cast<int>(viewport.height())};
+  }
   bool wantsStop() const { return module_.wantsStop(); }
   bool found() const { return window_ != nullptr && !window_->getCameras().empty(); }
 
@@ -130,7 +135,13 @@ class Driven {
   osgGA::EventQueue& events() { return *window_->getEventQueue(); }
   std::string picture() const { return "presa-" + run_.world->scene.name + "-0.000s.png"; }
 
-  PinchRun run_ = makePinchRun(RunOptions::View::kWindow, "");
+  RunOptions optionsWith(const PictureOptions& asked) const {
+    RunOptions options = run_.options;
+    options.picture = asked;
+    return options;
+  }
+
+  PinchRun run_;
   view::ViewModule module_;
   Feed feed_;
   PinchStates states_ = makePinchStates(*run_.world, {0, 0, 0.08});
@@ -168,7 +179,7 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
 
   // a key shows a part; pictures are compared without printing them
   const std::string all = view.pictureByKey();
-  for (const char key : {'3', '0', 'g'}) {
+  for (const char key : {'3', '0', 'g', 'o'}) {
     view.press(key);
     EXPECT_FALSE(view.pictureByKey() == all) << key;
     view.press(key);
@@ -188,6 +199,37 @@ TEST(OnDisplay, DISABLED_AnswersKeysAndMouse) {
   view.press(osgGA::GUIEventAdapter::KEY_Escape);
   view.frame();
   EXPECT_TRUE(view.wantsStop());
+}
+
+// The window opens with the asked-for size and camera. The key c tells the camera in the syntax of --camera, to 0.01 mm,
+// also after it was moved; h leaves the place and shows the subject.
+TEST(OnDisplay, DISABLED_TellsItsCamera) {
+  const CameraPlace place{{0.2, -0.6, 0.35}, {0.01, 0, 0.06}};
+  Driven view(false, {.camera = place, .width = 900, .height = 600});
+  ASSERT_TRUE(view.found());
+  EXPECT_EQ(view.size(), std::pair(900, 600));
+  const auto told = [&] {
+    testing::internal::CaptureStdout();
+    view.press('c');
+    const std::string line = testing::internal::GetCapturedStdout();
+    const std::string option = "--camera ";
+    EXPECT_EQ(line.substr(0, option.size()), option) << line;
+    Diagnostics diagnostics;
+    const auto camera = parseCamera(line.substr(option.size(), line.size() - option.size() - 1), diagnostics);
+    EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+    return std::get<CameraPlace>(camera.value());
+  };
+  const auto eye = [&] { return Vec3(view.look().first.x(), view.look().first.y(), view.look().first.z()); };
+  EXPECT_LT((eye() - place.eye).norm(), 1e-6);
+  EXPECT_LT((told().eye - place.eye).norm(), 2e-5);
+  EXPECT_LT((told().target - place.target).norm(), 2e-5);
+  view.drag({400, 300}, {600, 340});
+  EXPECT_GT((eye() - place.eye).norm(), 0.05);
+  EXPECT_LT((told().eye - eye()).norm(), 2e-5);
+  EXPECT_LT((told().target - place.target).norm(), 2e-5);
+  view.press('h');
+  view.frame();
+  EXPECT_GT((told().target - place.target).norm(), 1e-4);
 }
 
 // The pair follows the mouse, pixel for pixel, in the selected plane; the camera stays. Keys and wheel move the pair by
@@ -315,6 +357,7 @@ void expectOnDisplay(const std::string& test) {
 TEST(Window, OpensDrawsAndClosesUnderXvfb) { expectOnDisplay("DrawsFiveFrames"); }
 TEST(Window, OfAParticipantStaysOpenUnderXvfb) { expectOnDisplay("StaysOpenForTheNextRun"); }
 TEST(Window, ShadowsAgreeWithTheStillUnderXvfb) { expectOnDisplay("ShadowsAgreeWithTheStill"); }
+TEST(Window, TellsItsCameraUnderXvfb) { expectOnDisplay("TellsItsCamera"); }
 TEST(Window, MovesThePairUnderXvfb) { expectOnDisplay("MovesThePair"); }
 TEST(Window, AnswersKeysAndMouseUnderXvfb) { expectOnDisplay("AnswersKeysAndMouse"); }
 

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "framework/core/diagnostics/diagnostics.h"
+#include "framework/core/math/spatial.h"
+
+namespace presa {
+
+/// A side from which a picture shows bodies and fingers, as near as all of them fit; the names of `--camera`.
+enum class ViewSide : std::size_t {
+  kFront,  ///< from -y, level
+  kBack,   ///< from +y, level
+  kLeft,   ///< from -x, level
+  kRight,  ///< from +x, level
+  kTop,    ///< from +z, with +y upwards in the picture
+  kIso     ///< between front, right and top, with equal angles to all three
+};
+inline constexpr std::array<std::string_view, 6> kViewSideNames{"front", "back", "left", "right", "top", "iso"};
+
+/// A camera at `eye` that looks at `target` [m]. +z is upwards in the picture, +y where it looks straight up or down.
+struct CameraPlace {
+  Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+};
+inline constexpr double kCameraNearest = 0.01, kCameraFarthest = 500;  ///< distance from eye to target [m]
+inline constexpr double kCameraReach = 10'000;                         ///< of each coordinate, from the origin [m]
+
+inline constexpr int kPictureSmallest = 64, kPictureLargest = 8192;  ///< width and height [pixel]
+
+/// How a picture looks, apart from its parts (RunOptions::show). Each default changes nothing and costs nothing.
+struct PictureOptions {
+  enum class Hud {
+    kOff,      ///< nothing but what is asked for by name
+    kMinimal,  ///< scene, time and a scale bar
+    kFull
+  };
+  enum class Background {
+    kScene,       ///< floor and sky
+    kWhite,       ///< neither of them
+    kTransparent  ///< neither of them; PNG with alpha
+  };
+  std::optional<std::variant<ViewSide, CameraPlace>> camera{};
+  int width = 1280, height = 720;  ///< of a picture, and of a window when it opens [pixel]
+  Hud hud = Hud::kFull;
+  bool legend = false;  ///< explains arrows, cones and colours
+  Background background = Background::kScene;
+};
+
+/// The value of `--camera`: a name of kViewSideNames, or EYE:TARGET as x,y,z:x,y,z [m]. Error: E706.
+std::optional<std::variant<ViewSide, CameraPlace>> parseCamera(const std::string& text, Diagnostics& diagnostics);
+/// The same text for a place, to 0.01 mm.
+std::string cameraText(const CameraPlace& place);
+
+/// Sets width and height from the value of `--picture-size`: WxH [pixel]. Error: E707.
+void parsePictureSize(const std::string& text, PictureOptions& options, Diagnostics& diagnostics);
+
+}  // namespace presa
