@@ -124,7 +124,7 @@ void NaiveVisitor::decide() {
     next(Aim::kOpen);
   }
   // it stands: let go
-  if (block_ && isPlaced(*block_) && aim_ != Aim::kOpen && aim_ != Aim::kAway) next(Aim::kOpen);
+  if (block_ && isPlaced(*block_) && aim_ != Aim::kLook && aim_ != Aim::kOpen && aim_ != Aim::kAway) next(Aim::kOpen);
   switch (aim_) {
     case Aim::kLook:
       return chooseBlock();

@@ -3,9 +3,10 @@
 
 #include <cstdio>
 
-
 #include "apps/common/scratch_folder.h"
 #include "apps/temple/building/building.h"
+#include "apps/temple/help/help_level.h"
+#include "apps/temple/help/helped_finger.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/written_scene.h"
 #include "framework/session/run.h"
@@ -23,7 +24,7 @@ struct Outcome {
   std::string diary;
 };
 
-Outcome visitFirst(std::uint64_t seed, const test::Cues& cues) {
+Outcome visitFirst(std::uint64_t seed, const test::Cues& cues, bool helps) {
   Diagnostics diagnostics;
   const ScratchFolder scratch;
   const Building first = makeBuilding(shippedProportions("first", diagnostics), 0.1, seed);
@@ -41,6 +42,11 @@ Outcome visitFirst(std::uint64_t seed, const test::Cues& cues) {
   options.open_devices = false;  // there is no window
   options.guide = true;
   options.more.push_back(std::move(visitor));
+  if (helps) {
+    auto help = std::make_shared<GraspHelp>(loaded.world);
+    options.more.push_back(std::make_unique<HelpLevel>(loaded.world, help));
+    options.wrap = [help](DeviceList devices) { return helped(std::move(devices), help); };
+  }
   RunControl control;
   Run run(std::move(loaded), control, std::move(options));
   run.onPoll([&] {
@@ -53,7 +59,8 @@ Outcome visitFirst(std::uint64_t seed, const test::Cues& cues) {
 TEST(NaiveVisitor, Try) {
   int done = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Outcome outcome = visitFirst(seed, {});
+    const Outcome outcome =
+        visitFirst(seed, std::getenv("CUES") ? test::Cues{true, true} : test::Cues{}, std::getenv("HELP"));
     done += outcome.finished_at.has_value();
     std::printf("%2d: placed %d at %.0f s%s\n", int(seed), outcome.placed, outcome.finished_at.value_or(-1),
                 outcome.ignores ? ", ignores hints" : "");
