@@ -145,7 +145,10 @@ void ViewModule::show() {
 
 void ViewModule::drawWindow() {
   show();
-  if (pointer_) pointer_->begin(frame_.device);
+  if (pointer_) {
+    pointer_->begin(frame_.device);
+    pointer_->heed(frame_.device);
+  }
   renderer_->render();
   if (pointer_) pointer_out_->value = pointer_->state();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);

@@ -21,6 +21,7 @@ constexpr double kLift = 0.02;                       // least height over where 
 constexpr double kAround = 0.14;                     // level distance within which blocks are cleared [m]
 constexpr double kAligned = 0.006, kStraight = 0.1;  // before a block is lowered to its place [m, rad]
 constexpr double kAbove = 0.001;                     // over its place, where it is let go [m]
+constexpr double kPutsDown = 0.03;                   // drag downwards that is meant to put a block down [m]
 constexpr double kPutDown = 1.5, kOpens = 0.6;       // longest time of either [s]
 constexpr double kForgets = 0.05;                    // drag over which the offset of the pair fades [m]
 
@@ -59,7 +60,7 @@ const PointerState& GraspHelp::target(const PointerState& wanted, const Tick& ti
 
 void GraspHelp::go(Stage stage) noexcept {
   stage_ = stage;
-  stage_at_ = touched_at_ = now_;
+  stage_at_ = touched_at_ = opens_at_ = now_;
 }
 
 void GraspHelp::step(const PointerState& wanted) noexcept {
@@ -119,7 +120,9 @@ void GraspHelp::look(const PointerState& wanted) noexcept {
   const double reach = help_ * kReach;
   const std::int32_t body = nearest(wanted.p_WT + offset_, reach);
   if (left_ != kNoBody && level(poseOf(left_).p - wanted.p_WT - offset_).norm() > kLeaves * reach) left_ = kNoBody;
-  if (body == kNoBody || body == left_) return;
+  highest_ = std::max(highest_, wanted.p_WT.z());
+  const bool again = wantsClosed() || wanted.p_WT.z() < highest_ - kPutsDown;
+  if (body == kNoBody || (body == left_ && !again)) return;
   body_ = body;
   open_from_ = wanted.closing;
   go(Stage::kOver);
@@ -182,6 +185,7 @@ void GraspHelp::grip(const PointerState& wanted) noexcept {
   if (help_ >= kHighHelp) out_.p_WT.z() = aim_.p_W.z();
   if (!pressed_[0] || !pressed_[1]) touched_at_ = now_;
   if (opens || since() > kInVain) return release(Stage::kOpen, wanted);
+  highest_ = wanted.p_WT.z();
   if (now_ - touched_at_ > kSure) go(Stage::kHeld);
 }
 
@@ -209,7 +213,9 @@ void GraspHelp::carry(const PointerState& wanted) noexcept {
   takeGoal(wanted);
   hold(wanted);
   if (loses()) return release(Stage::kOpen, wanted);
-  if (opens) return help_ < kHighHelp ? release(Stage::kOpen, wanted) : go(Stage::kDown);
+  highest_ = std::max(highest_, wanted.p_WT.z());
+  if (opens && help_ < kHighHelp) return release(Stage::kOpen, wanted);
+  if (opens || (help_ >= kHighHelp && wanted.p_WT.z() < highest_ - kPutsDown)) return go(Stage::kDown);
   if (place_ != kNoGoal && way_.norm() < help_ * kReach) return go(Stage::kPlace);
   if (help_ < kHighHelp) return;
   // clear of what stands around, and of where the block belongs
@@ -267,7 +273,9 @@ void GraspHelp::release(Stage stage, const PointerState& wanted) noexcept {
   const Vec3 line = p_WH_[1] - p_WH_[0];
   offset_ = level(middle() - wanted.p_WT);
   yaw_offset_ = std::remainder(std::atan2(line.y(), line.x()) - wanted.yaw, 2 * std::numbers::pi);
-  base_ = wanted.closing;
+  base_ = open_from_ = wanted.closing;
+  highest_ = wanted.p_WT.z();
+  left_ = stage == Stage::kOpen ? body_ : kNoBody;
   aim_.p_W = middle();
   go(stage);
 }
@@ -288,7 +296,6 @@ void GraspHelp::open(const PointerState& wanted) noexcept {
   const double clear = floor + fingertip_ + kRoom;
   if (high) out_.p_WT.z() = std::max(wanted.p_WT.z(), clear);
   if (high && middle().z() < clear - kRoom && since() < kPutDown) return;
-  left_ = body_;
   body_ = kNoBody;
   go(Stage::kFree);
 }

@@ -97,7 +97,7 @@ class GraspHelp {
   double closing_ = 0, open_from_ = 0, closed_from_ = 0;  // of the wheel: now, at its last minimum and maximum
   Vec3 offset_ = Vec3::Zero(), last_ = Vec3::Zero();      // helped minus wanted, level; the last wanted
   double yaw_offset_ = 0, base_ = 0;                      // likewise [rad]; closing that counts as open
-  double taken_z_ = 0;                                    // of the body where it was taken [m]
+  double taken_z_ = 0, highest_ = 0;                      // of the body where it was taken; of the hand since [m]
   Vec3 way_ = Vec3::Zero();  // level, from the body to its goal, by the visitor's own aim [m]
   std::int32_t place_ = -1;  // goal near which the body is held
   PointerState out_;

@@ -50,7 +50,7 @@ void NaiveVisitor::drawKnowledge(const Cues& cues) {
 }
 
 void NaiveVisitor::write(const std::string& what) {
-  std::array<char, 160> line;
+  std::array<char, 260> line;
   std::snprintf(line.data(), line.size(), "%6.1f s: %s\n", now_, what.c_str());
   diary_ += line.data();
 }
@@ -61,6 +61,7 @@ void NaiveVisitor::step(const Tick& tick) noexcept {
   if (!objects_.hasValue()) return;
   look(dt);
   pointer_.begin(device_.value());
+  pointer_.heed(device_.value());
   placed_ = guide_->now.placed;
   if (!finished_at_ && placed_ == guide_->now.all) finished_at_ = now_;
   hand_.step(dt, pointer_, camera_);
@@ -119,7 +120,10 @@ void NaiveVisitor::decide() {
     return;
   }
   if (++tries_ > kMaxTries) {
-    write("gives this up");
+    char text[200];
+    const Vec3 m = fingers(), b = block_ ? poseOf(*block_).p : m;
+    std::snprintf(text, sizeof text, "gives this up, aim %d, fingers %.3f %.3f %.3f open %.3f, block %.3f %.3f %.3f, target %.3f %.3f %.3f closing %.2f", int(aim_), m.x(), m.y(), m.z(), opening(), b.x(), b.y(), b.z(), pointer_.state().p_WT.x(), pointer_.state().p_WT.y(), pointer_.state().p_WT.z(), pointer_.state().closing);
+    write(text);
     if (block_) waits_[*block_] = now_ + 5;
     next(Aim::kOpen);
   }
