@@ -8,6 +8,7 @@
 
 #include "framework/device/output_stage.h"
 #include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/visit_screen.h"
 
 namespace presa::view {
 namespace {
@@ -59,7 +60,7 @@ std::string outputWords(std::uint32_t status) {
 
 }  // namespace
 
-Hud::Hud(const World& world, const RunOptions& options) : world_(world) {
+Hud::Hud(const World& world, const RunOptions& options) : world_(world), plain_(forVisitors(world)) {
   camera_->setName("head-up display");
   camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera_->setViewMatrix(osg::Matrixd::identity());
@@ -114,7 +115,7 @@ void Hud::showFigures(bool shown) { figures_->setNodeMask(shown ? ~0U : 0U); }
 
 void Hud::toggleHelp() {
   help_->setNodeMask(~help_->getNodeMask());
-  if (!assembly_) return;
+  if (!assembly_ || plain_) return;
   right_figures_->setNodeMask(help_->getNodeMask());
   left_figures_->setNodeMask(help_->getNodeMask());
 }
@@ -130,9 +131,10 @@ void Hud::setBanner(const std::string& text, bool alarm) {
 }
 
 void Hud::addTitle(const World& world) {
-  Label title(*left_, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
+  osg::Group& parent = plain_ ? *left_figures_ : *left_;
+  Label title(parent, kMargin + 2, kHeight - 42, 25, kInk, Typeface::kBold);
   title.set(world.scene.name.empty() ? "scene" : world.scene.name);
-  time_.emplace(*left_, kMargin + 2, kHeight - 67, 16, kSoftInk, Typeface::kMono);
+  time_.emplace(parent, kMargin + 2, kHeight - 67, 16, kSoftInk, Typeface::kMono);
 }
 
 void Hud::addCard(std::size_t index) {
@@ -184,7 +186,8 @@ void Hud::addRates(const World& world, bool bus) {
                       Label(*right_figures_, right, y, 13, kInk, Typeface::kMono, Label::Align::kRight)});
     y -= kRow;
   }
-  output_.emplace(*right_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
+  output_.emplace(plain_ ? *right_figures_ : *right_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold,
+                  Label::Align::kRight);
 }
 
 void Hud::addLegend(bool interactive) {
@@ -222,7 +225,8 @@ void Hud::addLegend(bool interactive) {
 }
 
 void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines) {
-  constexpr float kLine = 22, kHalf = 290;
+  constexpr float kLine = 22;
+  const float kHalf = plain_ ? 450 : 290;
   const float top = kLine * static_cast<float>(lines.size()) / 2 + 10;
   center_->removeChild(help_);
   center_->addChild(help_);  // above everything added there meanwhile

@@ -73,6 +73,7 @@ class Hud {
   /// panel.
   osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group, legend_ = new osg::Group;
   const World& world_;
+  const bool plain_;  ///< for visitors: no figures, not even with the help
   std::optional<AssemblyPanel> assembly_;
   std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;

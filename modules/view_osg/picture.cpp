@@ -41,6 +41,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   casters_->addChild(bodies_.root());
   casters_->addChild(glyphs_.casters());
   if (world_->scene.assembly) guides_ = std::make_unique<Guides>(world_->scene, bodies_);
+  if (forVisitors(*world_)) prepareForVisitors(options);
   ViewFrame start;
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
@@ -60,6 +61,17 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   if (!options.participant) return;
   panel_.emplace(hud_.participantCenter());
   setScreen({});
+}
+
+// Fingers that are seen from afar in place of the glyphs of a laboratory, unless those are asked for.
+void Picture::prepareForVisitors(const RunOptions& options) {
+  finger_marks_ = std::make_unique<FingerMarks>(*world_, world_->scene.devices.size());
+  space_->addChild(finger_marks_->root());
+  casters_->addChild(finger_marks_->casters());
+  if (withMouse(*world_)) show_how_ = std::make_unique<ShowHow>(hud_.center(), world_->scene);
+  if (!options.show.empty()) return;
+  for (const ShownPart part : {ShownPart::kHips, ShownPart::kProxies, ShownPart::kCones, ShownPart::kForces})
+    parts_.set(part, false);
 }
 
 void Picture::setScreen(const ParticipantScreen& screen) {
@@ -142,6 +154,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
     const Guidance& told = *frame.guidance;
     lighting_.setGlow(told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0);
   }
+  if (finger_marks_) finger_marks_->update(fingers, frame.X_WB);
+  if (show_how_) show_how_->update(frame, fingers);
   glyphs_.show(parts);
   overlays_.update(parts, frame.X_WB, frame.asleep);
   neighbourhoods_.update(parts[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);

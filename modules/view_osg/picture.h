@@ -8,6 +8,7 @@
 #include "modules/view_osg/camera.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
+#include "modules/view_osg/finger_marks.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
@@ -16,7 +17,9 @@
 #include "modules/view_osg/participant_panel.h"
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
+#include "modules/view_osg/show_how.h"
 #include "modules/view_osg/time_bar.h"
+#include "modules/view_osg/visit_screen.h"
 
 namespace presa::view {
 
@@ -31,6 +34,9 @@ class Picture {
   TimeBar& timeBar() { return time_bar_; }
   /// The visible parts, from the next frame on.
   ShownParts& parts() { return parts_; }
+
+  /// The help table in the visitors' language; empty: not for visitors.
+  std::vector<std::pair<std::string, std::string>> visitorHelp() const { return view::visitorHelp(*world_); }
 
   /// Collects data for the plots. Call in every step, drawn or not.
   void follow(const ViewFrame& frame, const GroupTimings& timings) {
@@ -52,6 +58,7 @@ class Picture {
   void setSize(int width, int height);
 
  private:
+  void prepareForVisitors(const RunOptions& options);
   ShownParts partsNow() const;
   bool moved(const ViewFrame& frame, const std::vector<FingerView>& fingers);
   void updateSubject(const ViewFrame& frame, const std::vector<FingerView>& fingers);
@@ -64,7 +71,9 @@ class Picture {
   Overlays overlays_;
   NeighbourhoodLines neighbourhoods_;
   FeltRelief relief_;
-  std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
+  std::unique_ptr<Guides> guides_;             // only in scenes with an assembly
+  std::unique_ptr<FingerMarks> finger_marks_;  // only for visitors
+  std::unique_ptr<ShowHow> show_how_;          // only for visitors with a mouse
   osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   Lighting lighting_;
   Hud hud_;

@@ -64,6 +64,7 @@ void PointerControl::turn(double angle) {
 
 void PointerControl::close(double steps) {
   if (!begun_) return;
+  state_.wheel += steps * kCloseStep;
   if (stylus_)
     state_.tilt = std::clamp(state_.tilt + steps * kTurnStep, -kMaxTilt, kMaxTilt);
   else

@@ -54,13 +54,16 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_);
-    renderer_ = windowed()
-                    ? makeWindowRenderer(*picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
-                                         {.pointer = pointer_ ? &*pointer_ : nullptr,
-                                          .time = time_,
-                                          .undo = world_->scene.assembly.has_value(),
-                                          .participant = options_.participant.has_value()})
-                    : makeOffscreenRenderer(*picture_);
+    renderer_ =
+        windowed()
+            ? makeWindowRenderer(
+                  *picture_, options_.participant || forVisitors(*world_) ? "Presa" : "Presa: " + world_->scene.name,
+                  {.pointer = pointer_ ? &*pointer_ : nullptr,
+                   .time = time_,
+                   .undo = world_->scene.assembly.has_value(),
+                   .participant = options_.participant.has_value(),
+                   .visitor = forVisitors(*world_)})
+            : makeOffscreenRenderer(*picture_);
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),
@@ -158,7 +161,7 @@ void ViewModule::drawWindow() {
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
   const std::string trouble = savePicture(file);
-  picture_->hud().tell(trouble.empty() ? "saved " + file : trouble);
+  picture_->hud().tell(!trouble.empty() ? trouble : forVisitors(*world_) ? "\xe2\x9c\x93" : "saved " + file);
 }
 
 bool ViewModule::screenshotDue() const {

@@ -43,8 +43,11 @@ class WindowRenderer final : public Renderer {
     viewer_.addEventHandler(input_);
     viewer_.setSceneData(coarse_ ? coarse_->root() : picture.root());
     std::vector<std::pair<std::string, std::string>> help;
-    for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
-      help.emplace_back(line.keys, line.what);
+    if (controls.visitor)
+      help = picture.visitorHelp();
+    else
+      for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
+        help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
     setSize(size.width, size.height, 1);
     viewer_.realize();

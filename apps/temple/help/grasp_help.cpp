@@ -53,7 +53,10 @@ const PointerState& GraspHelp::target(const PointerState& wanted, const Tick& ti
   now_ = tick.time;
   if (out_.sequence == 0) last_ = wanted.p_WT;
   out_ = wanted;
-  step(wanted);
+  if (active_.load(std::memory_order_relaxed))
+    step(wanted);
+  else
+    stage_ = Stage::kFree;
   last_ = wanted.p_WT;
   return out_;
 }
@@ -64,9 +67,10 @@ void GraspHelp::go(Stage stage) noexcept {
 }
 
 void GraspHelp::step(const PointerState& wanted) noexcept {
-  closing_ = wanted.closing;
-  open_from_ = std::min(open_from_, wanted.closing);
-  closed_from_ = std::max(closed_from_, wanted.closing);
+  closing_ = wanted.wheel;
+  open_from_ = std::min(open_from_, closing_);
+  closed_from_ = std::max(closed_from_, closing_);
+  base_ = std::clamp(base_, closing_ - 1, closing_);
   if (stage_ == Stage::kFree) look(wanted);
   switch (stage_) {
     case Stage::kFree:
@@ -124,7 +128,7 @@ void GraspHelp::look(const PointerState& wanted) noexcept {
   const bool again = wantsClosed() || wanted.p_WT.z() < highest_ - kPutsDown;
   if (body == kNoBody || (body == left_ && !again)) return;
   body_ = body;
-  open_from_ = wanted.closing;
+  open_from_ = closing_;
   go(Stage::kOver);
 }
 
@@ -133,10 +137,9 @@ void GraspHelp::free(const PointerState& wanted) noexcept {
   const double left = std::max(0.0, 1 - level(wanted.p_WT - last_).norm() / kForgets);
   offset_ *= left;
   yaw_offset_ *= left;
-  base_ = std::min(base_, wanted.closing);
   out_.p_WT += offset_;
   out_.yaw += yaw_offset_;
-  out_.closing -= base_;
+  out_.closing = closing_ - base_;
   if (help_ < kHighHelp) return;
   const double top = clearHeight(middle(), kAround, kNoBody);
   if (top > 0) out_.p_WT.z() = std::max(out_.p_WT.z(), top + fingertip_ + kRoom);
@@ -153,8 +156,10 @@ void GraspHelp::aim(const PointerState& wanted) noexcept {
 void GraspHelp::over(const PointerState& wanted) noexcept {
   const Vec3 own = wanted.p_WT + offset_;
   if (level(own - poseOf(body_).p).norm() > kLeaves * help_ * kReach) {
-    base_ = wanted.closing;
-    return stage_ == Stage::kAt ? release(Stage::kLeave, wanted) : go(Stage::kFree);
+    base_ = closing_;
+    left_ = kNoBody;
+    aim_.p_W = middle();
+    return go(stage_ == Stage::kAt ? Stage::kLeave : Stage::kFree);
   }
   aim(wanted);
   const Vec3 line = p_WH_[1] - p_WH_[0];
@@ -166,25 +171,25 @@ void GraspHelp::over(const PointerState& wanted) noexcept {
   if (stage_ != Stage::kAt || !wantsClosed() || std::abs(middle().z() - out_.p_WT.z()) > kThere) return;
   grasp_need_.store(level(own - aim_.p_W).norm() + std::max(0.0, wanted.p_WT.z() - aim_.top));
   taken_z_ = poseOf(body_).p.z();
-  closed_from_ = wanted.closing;
+  closed_from_ = closing_;
   offset_ = level(aim_.p_W - wanted.p_WT);
   yaw_offset_ = aim_.yaw - wanted.yaw;
   go(Stage::kGrip);
 }
 
 /// The pair as the visitor moves it, closed firmly.
-void GraspHelp::hold(const PointerState& wanted) noexcept {
+void GraspHelp::hold() noexcept {
   out_.p_WT += offset_;
   out_.yaw += yaw_offset_;
-  out_.closing = std::max(wanted.closing, kFirm);
+  out_.closing = std::max(closing_ - base_, kFirm);
 }
 
 void GraspHelp::grip(const PointerState& wanted) noexcept {
   const bool opens = wantsOpen();
-  hold(wanted);
+  hold();
   if (help_ >= kHighHelp) out_.p_WT.z() = aim_.p_W.z();
   if (!pressed_[0] || !pressed_[1]) touched_at_ = now_;
-  if (opens || since() > kInVain) return release(Stage::kOpen, wanted);
+  if (opens || since() > kInVain) return release(wanted);
   highest_ = wanted.p_WT.z();
   if (now_ - touched_at_ > kSure) go(Stage::kHeld);
 }
@@ -211,10 +216,10 @@ void GraspHelp::notePlace() noexcept {
 void GraspHelp::carry(const PointerState& wanted) noexcept {
   const bool opens = wantsOpen();
   takeGoal(wanted);
-  hold(wanted);
-  if (loses()) return release(Stage::kOpen, wanted);
+  hold();
+  if (loses()) return release(wanted);
   highest_ = std::max(highest_, wanted.p_WT.z());
-  if (opens && help_ < kHighHelp) return release(Stage::kOpen, wanted);
+  if (opens && help_ < kHighHelp) return release(wanted);
   if (opens || (help_ >= kHighHelp && wanted.p_WT.z() < highest_ - kPutsDown)) return go(Stage::kDown);
   if (place_ != kNoGoal && way_.norm() < help_ * kReach) return go(Stage::kPlace);
   if (help_ < kHighHelp) return;
@@ -231,19 +236,19 @@ void GraspHelp::carry(const PointerState& wanted) noexcept {
 void GraspHelp::place(const PointerState& wanted) noexcept {
   if (!wantsOpen()) opens_at_ = now_;
   const bool opens = wantsOpen();
-  hold(wanted);
+  hold();
   takeGoal(wanted);
-  if (loses() || now_ - opens_at_ > kPutDown || (opens && help_ < kHighHelp)) return release(Stage::kOpen, wanted);
+  if (loses() || now_ - opens_at_ > kPutDown || (opens && help_ < kHighHelp)) return release(wanted);
   const bool stands = placed_[static_cast<std::size_t>(body_)].load(std::memory_order_relaxed);
   const Pose& X_WB = poseOf(body_);
   if (stage_ == Stage::kDown) {
     out_.p_WT.z() = middle().z() + std::max(-kRoom, taken_z_ - X_WB.p.z());
-    if (stands || X_WB.p.z() < taken_z_ + 2 * kAbove) release(Stage::kOpen, wanted);
+    if (stands || X_WB.p.z() < taken_z_ + 2 * kAbove) release(wanted);
     return;
   }
   if (stands && help_ >= kHighHelp) {
     notePlace();
-    return release(Stage::kOpen, wanted);
+    return release(wanted);
   }
   if (stands) return;
   if (place_ == kNoGoal) return go(Stage::kHeld);
@@ -264,26 +269,25 @@ void GraspHelp::place(const PointerState& wanted) noexcept {
   }
   if (opens && (X_WB.p - X_WG.p).norm() < world_->scene.assembly->snap_distance / 2) {
     notePlace();
-    release(Stage::kOpen, wanted);
+    release(wanted);
   }
 }
 
 /// From here on the hand opens where it is.
-void GraspHelp::release(Stage stage, const PointerState& wanted) noexcept {
+void GraspHelp::release(const PointerState& wanted) noexcept {
   const Vec3 line = p_WH_[1] - p_WH_[0];
   offset_ = level(middle() - wanted.p_WT);
   yaw_offset_ = std::remainder(std::atan2(line.y(), line.x()) - wanted.yaw, 2 * std::numbers::pi);
-  base_ = open_from_ = wanted.closing;
+  base_ = open_from_ = closing_;
   highest_ = wanted.p_WT.z();
-  left_ = stage == Stage::kOpen ? body_ : kNoBody;
+  left_ = body_;
   aim_.p_W = middle();
-  go(stage);
+  go(Stage::kOpen);
 }
 
 // Opens where the hand is, then goes up.
 void GraspHelp::open(const PointerState& wanted) noexcept {
   const double floor = aimAt(shapes_[static_cast<std::size_t>(body_)], poseOf(body_), 0, fingertip_).top;
-  base_ = std::min(base_, wanted.closing);
   out_.p_WT.head<2>() = aim_.p_W.head<2>();
   out_.yaw += yaw_offset_;
   out_.closing = 0;

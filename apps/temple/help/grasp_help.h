@@ -31,6 +31,8 @@ class GraspHelp {
 
   void setStrength(double strength) noexcept { strength_.store(strength, std::memory_order_relaxed); }
   void setPlaced(std::size_t body, bool placed) noexcept { placed_[body].store(placed, std::memory_order_relaxed); }
+  /// False: the pointer's state is passed on as it is, and no block is at hand.
+  void setActive(bool active) noexcept { active_.store(active, std::memory_order_relaxed); }
   /// The goal that the guide has for a held body (indices; kNoGoal, kNoBody: none).
   void setGoal(std::int32_t body, std::int32_t goal) noexcept {
     goal_.store((static_cast<std::int64_t>(body) << 32) | static_cast<std::uint32_t>(goal), std::memory_order_relaxed);
@@ -64,11 +66,11 @@ class GraspHelp {
   void carry(const PointerState& wanted) noexcept;
   void place(const PointerState& wanted) noexcept;
   void open(const PointerState& wanted) noexcept;
-  void release(Stage stage, const PointerState& wanted) noexcept;
+  void release(const PointerState& wanted) noexcept;
   void notePlace() noexcept;
   void aim(const PointerState& wanted) noexcept;
   void takeGoal(const PointerState& wanted) noexcept;
-  void hold(const PointerState& wanted) noexcept;
+  void hold() noexcept;
   std::int32_t nearest(const Vec3& p, double reach) const noexcept;
   double clearHeight(const Vec3& p, double reach, std::int32_t but) const noexcept;
   bool wantsClosed() const noexcept;
@@ -83,6 +85,7 @@ class GraspHelp {
   double fingertip_ = 0;
   std::vector<std::atomic<bool>> placed_;
   std::atomic<std::int64_t> goal_{-1};
+  std::atomic<bool> active_{true};
   std::atomic<double> strength_{1}, grasp_need_{0}, place_need_{0};
 
   std::vector<Pose> X_WB_;  // by body

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kIgnore = 0.3;  // share of visitors who ignore what they are shown
 constexpr double kDepthGuessed = 0.03, kDepthSeen = 0.008, kAcross = 0.002;  // [m]
+constexpr double kDepthPractised = 0.003;                                    // [m]
 constexpr double kThere = 0.014;                                             // nearer does not look better [m]
 constexpr double kReaction = 0.5, kLongPause = 0.1;  // median of a pause [s]; share of long ones
 constexpr double kFollowTime = 0.4;                  // of the window's camera [s]
@@ -24,13 +25,17 @@ double yawOff(const Pose& X_WB, const AssemblyGoal& goal) {
 
 }  // namespace
 
-NaiveVisitor::NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t seed, const Cues& cues)
+NaiveVisitor::NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t seed, const Cues& cues, bool practised)
     : Module("naive_visitor", RateGroup::kView),
       world_(std::move(world)),
       random_(seed, "naive visitor"),
       hand_(drawHand(random_), random_),
       waits_(world_->scene.bodies.size()) {
   drawKnowledge(cues);
+  if (!practised) return;
+  ignores_ = false;
+  known_ = {};
+  depth_ = kDepthPractised;
 }
 
 // Shown, each is found within seconds of the other. By oneself: everybody drags, many try the wheel, few try Shift.
@@ -50,7 +55,7 @@ void NaiveVisitor::drawKnowledge(const Cues& cues) {
 }
 
 void NaiveVisitor::write(const std::string& what) {
-  std::array<char, 260> line;
+  std::array<char, 160> line;
   std::snprintf(line.data(), line.size(), "%6.1f s: %s\n", now_, what.c_str());
   diary_ += line.data();
 }
@@ -120,10 +125,7 @@ void NaiveVisitor::decide() {
     return;
   }
   if (++tries_ > kMaxTries) {
-    char text[200];
-    const Vec3 m = fingers(), b = block_ ? poseOf(*block_).p : m;
-    std::snprintf(text, sizeof text, "gives this up, aim %d, fingers %.3f %.3f %.3f open %.3f, block %.3f %.3f %.3f, target %.3f %.3f %.3f closing %.2f", int(aim_), m.x(), m.y(), m.z(), opening(), b.x(), b.y(), b.z(), pointer_.state().p_WT.x(), pointer_.state().p_WT.y(), pointer_.state().p_WT.z(), pointer_.state().closing);
-    write(text);
+    write("gives this up");
     if (block_) waits_[*block_] = now_ + 5;
     next(Aim::kOpen);
   }
@@ -159,7 +161,10 @@ void NaiveVisitor::chooseBlock() {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i)
     if (!world_->scene.bodies[i].fixed && !isPlaced(i) && waits_[i] <= now_) open.push_back(i);
-  if (open.empty()) return;
+  if (open.empty()) {
+    tries_ = 0;
+    return;
+  }
   block_ = open[random_.below(open.size())];
   if (const std::int32_t hint = guide_->now.hint_body; hint != kNoBody && !ignores_)
     block_ = static_cast<std::size_t>(hint);

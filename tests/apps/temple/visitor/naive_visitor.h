@@ -23,13 +23,13 @@ struct Cues {
 /// of the guide, and acts through MouseHand alone. Equal seeds act equally. Thread: view.
 class NaiveVisitor final : public Module {
  public:
-  NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t seed, const Cues& cues);
+  /// `practised`: knows the controls and sees depth well.
+  NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t seed, const Cues& cues, bool practised);
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override { return {"look, decide, move the mouse"}; }
 
   std::optional<double> finishedAt() const { return finished_at_; }  ///< all blocks placed [s]
   int placed() const { return placed_; }
-  bool ignoresHints() const { return ignores_; }
   /// Each decision with its time, for a failed test.
   const std::string& diary() const { return diary_; }
 
