@@ -117,6 +117,7 @@ FingerMarks::Marks FingerMarks::make(std::size_t finger) {
   Marks marks;
   marks.tip = placed(sphereGeometry(1, color), *solid_);
   marks.finger = placed(unitShaft(color), *solid_);
+  marks.end = placed(sphereGeometry(1, color), *solid_);
   marks.line = placed(unitShaft(kLine), *faint_);
   marks.spot = placed(unitShaft(kSpot), *faint_);
   marks.ring = placed(unitShaft(color), *faint_);
@@ -134,6 +135,9 @@ void FingerMarks::follow(const FingerView& view, const Vec3& towards_W, const st
   marks.tip->setMatrix(osg::Matrixd::scale(r, r, r) * osg::Matrixd::translate(toOsg(view.p_WP)));
   marks.finger->setMatrix(
       alongZ(view.p_WP, towards_W - view.p_WP, {kFingerThick * r, kFingerThick * r, kFingerLength}));
+  const Vec3 end = view.p_WP + kFingerLength * (towards_W - view.p_WP).normalized();
+  marks.end->setMatrix(osg::Matrixd::scale(kFingerThick * r, kFingerThick * r, kFingerThick * r) *
+                       osg::Matrixd::translate(toOsg(end)));
   const std::optional<double> ground = around_.below(view.p_WP, X_WB);
   const double high = ground ? view.p_WP.z() - r - *ground : 0;
   shown(*marks.line, high > 0.002);
@@ -165,8 +169,8 @@ void FingerMarks::update(const std::vector<FingerView>& fingers, const std::vect
   if (valid > 0) middle /= valid;
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     const bool is = i < fingers.size() && fingers[i].valid;
-    for (osg::Node* node : {marks_[i].tip.get(), marks_[i].finger.get(), marks_[i].line.get(), marks_[i].spot.get(),
-                            marks_[i].ring.get(), marks_[i].glow.get()})
+    for (osg::Node* node : {marks_[i].tip.get(), marks_[i].finger.get(), marks_[i].end.get(), marks_[i].line.get(),
+                            marks_[i].spot.get(), marks_[i].ring.get(), marks_[i].glow.get()})
       shown(*node, is);
     if (is) follow(fingers[i], middle + kHandAbove * Vec3::UnitZ(), X_WB, marks_[i]);
   }

@@ -47,7 +47,7 @@ class FingerMarks {
 
  private:
   struct Marks {
-    osg::ref_ptr<osg::MatrixTransform> tip, finger, line, spot, ring, glow;
+    osg::ref_ptr<osg::MatrixTransform> tip, finger, end, line, spot, ring, glow;
     osg::ref_ptr<osg::Uniform> glow_opacity;
   };
   Marks make(std::size_t finger);

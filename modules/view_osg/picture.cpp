@@ -68,7 +68,7 @@ void Picture::prepareForVisitors(const RunOptions& options) {
   finger_marks_ = std::make_unique<FingerMarks>(*world_, world_->scene.devices.size());
   space_->addChild(finger_marks_->root());
   casters_->addChild(finger_marks_->casters());
-  if (withMouse(*world_)) show_how_ = std::make_unique<ShowHow>(hud_.center(), world_->scene);
+  if (withMouse(*world_)) show_how_ = std::make_unique<ShowHow>(hud_.left(), world_->scene);
   if (!options.show.empty()) return;
   for (const ShownPart part : {ShownPart::kHips, ShownPart::kProxies, ShownPart::kCones, ShownPart::kForces})
     parts_.set(part, false);

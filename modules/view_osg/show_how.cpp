@@ -10,10 +10,10 @@ const osg::Vec4 kInk(0.97F, 0.96F, 0.93F, 1), kPanel(0.06F, 0.055F, 0.05F, 0.82F
 const osg::Vec4 kMouse(0.90F, 0.90F, 0.88F, 1), kSeam(0.45F, 0.45F, 0.46F, 1), kPressed(1.0F, 0.72F, 0.16F, 1);
 const osg::Vec4 kSkin(0.93F, 0.72F, 0.57F, 1), kNail(0.98F, 0.86F, 0.78F, 1), kKey(0.93F, 0.93F, 0.95F, 1);
 const osg::Vec4 kKeyInk(0.12F, 0.12F, 0.14F, 1);
-constexpr float kLeft = -330, kBottom = -232, kWidth = 660, kHeight = 118;  // of the panel, above that of the assembly
-constexpr float kIcon = kLeft + 96, kMiddle = kBottom + kHeight / 2;        // middle of the mouse
-constexpr double kPeriod = 1.8;                                             // of the animation [s]
-constexpr float kSwing = 26, kRoll = 9;                                     // [lines]
+constexpr float kLeft = 18, kBottom = 532, kWidth = 440, kHeight = 170;  // of the panel
+constexpr float kIcon = kLeft + kWidth / 2, kMiddle = kBottom + 112;     // middle of the mouse
+constexpr double kPeriod = 1.8;                                          // of the animation [s]
+constexpr float kSwing = 26, kRoll = 9;                                  // [lines]
 
 osg::ref_ptr<osg::Geometry> arrow(float x, float y, float dx, float dy) {
   const osg::Vec2 tip(x + dx, y + dy), across(-dy * 0.6F, dx * 0.6F);
@@ -41,8 +41,8 @@ ShowHow::ShowHow(osg::Group& parent, const Scene& scene) : scene_(scene) {
   root_->addChild(mouse_);
   addMouse();
   addKeys();
-  does_.emplace(*root_, kLeft + 200, kMiddle + 12, 22, kInk, Typeface::kBold);
-  keys_.emplace(*root_, kLeft + 200, kMiddle - 22, 18, kPressed);
+  does_.emplace(*root_, kIcon, kBottom + 36, 20, kInk, Typeface::kBold, Label::Align::kCenter);
+  keys_.emplace(*root_, kIcon, kBottom + 13, 16, kPressed, Typeface::kRegular, Label::Align::kCenter);
   shown(*root_, false);
 }
 
@@ -69,7 +69,7 @@ void ShowHow::addMouse() {
 
 void ShowHow::addKeys() {
   for (const float side : {-1.0F, 1.0F}) arrows_->addChild(arrow(kIcon + side * 62, kMiddle, side * 14, 0));
-  shift_->addChild(keyCap("\xe2\x87\xa7", kLeft + 34, kMiddle - 34, 40));
+  shift_->addChild(keyCap("\xe2\x87\xa7", kIcon - 84, kMiddle - 20, 44));
   for (const float side : {-1.0F, 1.0F}) shift_->addChild(arrow(kIcon + 62, kMiddle + side * 14, 0, side * 14));
   turn_keys_->addChild(keyCap("E", kIcon + 32, kMiddle, 42));
   turn_keys_->addChild(key_);

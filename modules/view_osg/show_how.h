@@ -9,7 +9,7 @@
 namespace presa::view {
 
 /// An animated hand on a mouse that shows a visitor how to drag, pinch, lift and turn, with the words of the scene.
-/// Coordinates: origin in the middle of a picture 720 lines high.
+/// Coordinates: origin at the lower left corner of a picture 720 lines high; the panel is in its upper left one.
 class ShowHow {
  public:
   /// `parent`: of the head-up display; `scene`, with an assembly, must outlive this.

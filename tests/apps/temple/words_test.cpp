@@ -37,6 +37,10 @@ TEST_P(Words, SpeakOfEveryBlockOfTheFacade) {
   EXPECT_EQ(diagnostics.text(), "");
   EXPECT_EQ(words.language, GetParam());
   EXPECT_EQ(words.elements.size(), 9U);
+  for (const AssemblyWords::Action& action : words.actions) {
+    EXPECT_LT(action.does.size(), 36U) << action.name << ": one line of the panel that shows it";
+    EXPECT_LT(action.keys.size(), 52U) << action.name << ": likewise";
+  }
   for (const AssemblyWords::Element& element : words.elements) {
     EXPECT_FALSE(element.called.empty()) << element.name;
     EXPECT_LT(element.says.size(), 125U) << element.name << ": two lines of the picture at most";

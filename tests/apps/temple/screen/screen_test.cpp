@@ -7,6 +7,7 @@
 
 #include "apps/common/scratch_folder.h"
 #include "apps/temple/building/words.h"
+#include "framework/device/output_stage.h"
 #include "modules/view_osg/picture.h"
 #include "tests/apps/temple/visitor/first_task.h"
 

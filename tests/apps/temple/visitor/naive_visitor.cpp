@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kIgnore = 0.3;  // share of visitors who ignore what they are shown
 constexpr double kDepthGuessed = 0.03, kDepthSeen = 0.008, kAcross = 0.002;  // [m]
-constexpr double kDepthPractised = 0.003;                                    // [m]
-constexpr double kThere = 0.014;                                             // nearer does not look better [m]
+constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;           // [m]
 constexpr double kReaction = 0.5, kLongPause = 0.1;  // median of a pause [s]; share of long ones
 constexpr double kFollowTime = 0.4;                  // of the window's camera [s]
 constexpr int kMaxTries = 6;                         // of one aim, before it starts again
@@ -29,13 +28,14 @@ NaiveVisitor::NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t see
     : Module("naive_visitor", RateGroup::kView),
       world_(std::move(world)),
       random_(seed, "naive visitor"),
-      hand_(drawHand(random_), random_),
+      hand_(practised ? HandTraits{.overshoot = 0, .scatter = 0.03, .tremor = 0.0005} : drawHand(random_), random_),
       waits_(world_->scene.bodies.size()) {
   drawKnowledge(cues);
   if (!practised) return;
   ignores_ = false;
   known_ = {};
   depth_ = kDepthPractised;
+  there_ = kTherePractised;
 }
 
 // Shown, each is found within seconds of the other. By oneself: everybody drags, many try the wheel, few try Shift.
@@ -176,13 +176,13 @@ void NaiveVisitor::chooseBlock() {
 void NaiveVisitor::over() {
   Vec3 way = guess(poseOf(*block_).p) - fingers();
   way.z() = 0;
-  if (way.norm() < kThere) return next(Aim::kDown);
+  if (way.norm() < there_) return next(Aim::kDown);
   hand_.drag(way, false, pointer_, camera_);
 }
 
 void NaiveVisitor::down() {
   const double high = fingers().z() - guess(poseOf(*block_).p).z();
-  if (now_ < known_.lift || std::abs(high) < kThere) return next(Aim::kPinch);
+  if (now_ < known_.lift || std::abs(high) < there_) return next(Aim::kPinch);
   hand_.drag({0, 0, -high}, true, pointer_, camera_);
 }
 
@@ -230,7 +230,7 @@ void NaiveVisitor::carry() {
   const AssemblyGoal& goal = world_->scene.assembly->goals[static_cast<std::size_t>(told.goal)];
   Vec3 way = guess(goal.X_WB.p) - poseOf(*block_).p;
   way.z() = 0;
-  if (way.norm() < kThere) return next(Aim::kTurn);
+  if (way.norm() < there_) return next(Aim::kTurn);
   hand_.drag(way, false, pointer_, camera_);
 }
 

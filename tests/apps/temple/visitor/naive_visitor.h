@@ -72,7 +72,8 @@ class NaiveVisitor final : public Module {
   MouseHand hand_;
   Known known_;
   bool ignores_ = false;
-  double depth_ = 0;  // standard deviation of a guess along the line of sight [m]
+  double there_ = 0.014;  // nearer does not look better [m]
+  double depth_ = 0;      // standard deviation of a guess along the line of sight [m]
   double now_ = 0, until_ = 0;
   Aim aim_ = Aim::kLook;
   std::optional<std::size_t> block_;
