@@ -27,6 +27,8 @@ constexpr double kForgets = 0.05;                    // drag over which the offs
 
 Vec3 level(const Vec3& v) noexcept { return {v.x(), v.y(), 0}; }
 
+double wrapped(double angle) noexcept { return std::remainder(angle, 2 * std::numbers::pi); }
+
 double yawOf(const Quat& from, const Quat& to) noexcept {
   const Vec3 x = (to * from.conjugate()) * Vec3::UnitX();
   return std::atan2(x.y(), x.x());
@@ -162,9 +164,8 @@ void GraspHelp::over(const PointerState& wanted) noexcept {
     return go(stage_ == Stage::kAt ? Stage::kLeave : Stage::kFree);
   }
   aim(wanted);
-  const Vec3 line = p_WH_[1] - p_WH_[0];
-  const double turned = std::remainder(std::atan2(line.y(), line.x()) - aim_.yaw, 2 * std::numbers::pi);
-  const bool there = level(middle() - aim_.p_W).norm() < kThere && std::abs(turned) < kTurned;
+  const bool turned = std::abs(wrapped(pairYaw() - aim_.yaw)) < kTurned;
+  const bool there = turned && level(middle() - aim_.p_W).norm() < kThere;
   if (stage_ == Stage::kOver && there) go(Stage::kAt);
   if (help_ >= kHighHelp)
     out_.p_WT.z() = stage_ == Stage::kAt ? aim_.p_W.z() : std::max(wanted.p_WT.z(), aim_.top + fingertip_ + kRoom);
@@ -232,52 +233,58 @@ void GraspHelp::carry(const PointerState& wanted) noexcept {
   out_.p_WT.z() = std::max(wanted.p_WT.z(), low + hangs);
 }
 
-// Over its place the block is turned and lowered; elsewhere it is put down where it is.
 void GraspHelp::place(const PointerState& wanted) noexcept {
-  if (!wantsOpen()) opens_at_ = now_;
   const bool opens = wantsOpen();
+  if (!opens) opens_at_ = now_;
   hold();
   takeGoal(wanted);
   if (loses() || now_ - opens_at_ > kPutDown || (opens && help_ < kHighHelp)) return release(wanted);
   const bool stands = placed_[static_cast<std::size_t>(body_)].load(std::memory_order_relaxed);
-  const Pose& X_WB = poseOf(body_);
-  if (stage_ == Stage::kDown) {
-    out_.p_WT.z() = middle().z() + std::max(-kRoom, taken_z_ - X_WB.p.z());
-    if (stands || X_WB.p.z() < taken_z_ + 2 * kAbove) release(wanted);
-    return;
-  }
-  if (stands && help_ >= kHighHelp) {
+  if (stage_ == Stage::kDown) return putDown(wanted, stands);
+  if (stands) {
+    if (help_ < kHighHelp) return;
     notePlace();
     return release(wanted);
   }
-  if (stands) return;
-  if (place_ == kNoGoal) return go(Stage::kHeld);
-  if (way_.norm() > kLeaves * help_ * kReach) return go(Stage::kHeld);
+  if (place_ == kNoGoal || way_.norm() > kLeaves * help_ * kReach) return go(Stage::kHeld);
+  overPlace(opens);
+  const Vec3& goal = world_->scene.assembly->goals[static_cast<std::size_t>(place_)].X_WB.p;
+  if (!opens || (poseOf(body_).p - goal).norm() > world_->scene.assembly->snap_distance / 2) return;
+  notePlace();
+  release(wanted);
+}
+
+// Where it is, as low as it was taken.
+void GraspHelp::putDown(const PointerState& wanted, bool stands) noexcept {
+  const double high = poseOf(body_).p.z() - taken_z_;
+  out_.p_WT.z() = middle().z() - std::min(kRoom, high);
+  if (stands || high < 2 * kAbove) release(wanted);
+}
+
+// The block is turned to the nearest orientation that fits, and lowered once it is over its place.
+void GraspHelp::overPlace(bool opens) noexcept {
+  const Pose& X_WB = poseOf(body_);
   const AssemblyGoal& goal = world_->scene.assembly->goals[static_cast<std::size_t>(place_)];
   const Pose X_WG = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
   const double turn = yawOf(X_WB.q, X_WG.q);
-  const Vec3 line = p_WH_[1] - p_WH_[0];
-  const double yaw = std::atan2(line.y(), line.x());
-  out_.yaw += std::remainder(yaw + turn - out_.yaw, 2 * std::numbers::pi);
   const Vec3 in_hand = middle() - X_WB.p;
   const Vec3 turned = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * in_hand;
+  out_.yaw += wrapped(pairYaw() + turn - out_.yaw);
   out_.p_WT.head<2>() = (X_WG.p + turned).head<2>();
-  if (help_ >= kHighHelp) {
-    const double off = level(X_WB.p - X_WG.p).norm();
-    const bool lowers = opens || (off < kAligned && std::abs(turn) < kStraight);
-    out_.p_WT.z() = X_WG.p.z() + in_hand.z() + (lowers ? kAbove : kRoom);
-  }
-  if (opens && (X_WB.p - X_WG.p).norm() < world_->scene.assembly->snap_distance / 2) {
-    notePlace();
-    release(wanted);
-  }
+  if (help_ < kHighHelp) return;
+  const bool over = level(X_WB.p - X_WG.p).norm() < kAligned && std::abs(turn) < kStraight;
+  out_.p_WT.z() = X_WG.p.z() + in_hand.z() + (over || opens ? kAbove : kRoom);
+}
+
+double GraspHelp::pairYaw() const noexcept {
+  const Vec3 line = p_WH_[1] - p_WH_[0];
+  return std::atan2(line.y(), line.x());
 }
 
 /// From here on the hand opens where it is.
 void GraspHelp::release(const PointerState& wanted) noexcept {
-  const Vec3 line = p_WH_[1] - p_WH_[0];
   offset_ = level(middle() - wanted.p_WT);
-  yaw_offset_ = std::remainder(std::atan2(line.y(), line.x()) - wanted.yaw, 2 * std::numbers::pi);
+  yaw_offset_ = wrapped(pairYaw() - wanted.yaw);
   base_ = open_from_ = closing_;
   highest_ = wanted.p_WT.z();
   left_ = body_;

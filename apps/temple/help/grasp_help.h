@@ -65,6 +65,8 @@ class GraspHelp {
   void grip(const PointerState& wanted) noexcept;
   void carry(const PointerState& wanted) noexcept;
   void place(const PointerState& wanted) noexcept;
+  void putDown(const PointerState& wanted, bool stands) noexcept;
+  void overPlace(bool opens) noexcept;
   void open(const PointerState& wanted) noexcept;
   void release(const PointerState& wanted) noexcept;
   void notePlace() noexcept;
@@ -76,6 +78,7 @@ class GraspHelp {
   bool wantsClosed() const noexcept;
   bool wantsOpen() const noexcept;
   bool loses() noexcept;
+  double pairYaw() const noexcept;
   const Pose& poseOf(std::int32_t body) const noexcept;
   Vec3 middle() const noexcept { return (p_WH_[0] + p_WH_[1]) / 2; }
   double halfOpening() const noexcept { return (p_WH_[1] - p_WH_[0]).norm() / 2; }
