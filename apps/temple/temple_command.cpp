@@ -347,7 +347,7 @@ void addTemple(Command app, int& status) {
       "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
   command.action([a, command, &status] {
     a->go_on = command.given("--continue");
-    if (a->size.empty()) a->size = a->anybody() ? "first" : "column";
+    if (a->size.empty()) a->size = a->anybody() && a->parameters.empty() ? "first" : "column";
     status = runTemple(*a);
   });
 }

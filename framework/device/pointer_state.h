@@ -16,8 +16,8 @@ struct PointerState {
   double yaw = 0;              ///< angle from +x to the horizontal line thumb to index, about +z [rad]; unbounded;
                                ///< direction in which a stylus leans
   double closing = 0;          ///< 0: wide open; 1: closed as hard as the pair may
+  double tilt = 0;             ///< of a stylus, from upright [rad]
   double wheel = 0;  ///< sum of all steps of closing, unbounded: counts them also where `closing` is at its end
-  double tilt = 0;   ///< of a stylus, from upright [rad]
 };
 
 }  // namespace presa

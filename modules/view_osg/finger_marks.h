@@ -33,8 +33,8 @@ class Surroundings {
   std::vector<std::unique_ptr<SurfaceTree>> trees_;  ///< by body; null: not a mesh
 };
 
-/// Marks that let a visitor see where the fingertips are: opaque, bright fingers, a line from each fingertip down to what
-/// lies below it, with a spot there like a shadow at noon, and a glow where the fingertip would touch.
+/// Marks that let a visitor see where the fingertips are: opaque, bright fingers, a line from each fingertip down to
+/// what lies below it, with a spot there like a shadow at noon, and a glow where the fingertip would touch.
 class FingerMarks {
  public:
   FingerMarks(const World& world, std::size_t fingers);

@@ -8,8 +8,8 @@
 
 namespace presa::view {
 
-/// True for a scene that is shown to visitors of any age: its words say what to do with mouse and keys. Their screen has
-/// no name of a scene, no time, no figure and no word of the trade.
+/// True for a scene that is shown to visitors of any age: its words say what to do with mouse and keys. Their screen
+/// has no name of a scene, no time, no figure and no word of the trade.
 inline bool forVisitors(const World& world) {
   return world.scene.assembly && !world.scene.assembly->words.actions.empty();
 }

@@ -51,8 +51,8 @@ struct Proportions {
   std::optional<Pediment> pediment;
 };
 
-/// Reads and checks a file, or the shipped building of that name ("first", "column", "facade"). Errors go to `diagnostics`; the
-/// result is valid only if there are none. Never throws for bad input.
+/// Reads and checks a file, or the shipped building of that name ("first", "column", "facade"). Errors go to
+/// `diagnostics`; the result is valid only if there are none. Never throws for bad input.
 ///   E970 format version  E971 drums, capital and dowels that do not fit each other
 ///   E972 triglyphs that do not fit the columns  E973 pediment without cornice, too steep or too flat
 ///   E975 masses  E976 no shipped building of that name

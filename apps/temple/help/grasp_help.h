@@ -13,9 +13,10 @@ namespace presa::temple {
 
 /// Helps a visitor with a mouse to take a block and to put it where it belongs. The help changes the target of the
 /// visitor's pair of fingertips, as the visitor's own hand would, and nothing else: no force, no body, no goal. Over a
-/// block the pair opens, comes to its middle, turns across its faces and goes down; a notch or two of the wheel close it
-/// firmly; the hand carries clear of what stands; near its place the block is turned and lowered; the hand lets go of a
-/// block that stands. Whatever the visitor does is added: a drag always moves the pair, the opposite notches open it.
+/// block the pair opens, comes to its middle, turns across its faces and goes down; a notch or two of the wheel close
+/// it firmly; the hand carries clear of what stands; near its place the block is turned and lowered; the hand lets go
+/// of a block that stands. Whatever the visitor does is added: a drag always moves the pair, the opposite notches open
+/// it.
 ///
 /// Strength 1: all of this. Less: from a smaller distance; below kHighHelp without the heights, below kNone nothing.
 /// A new strength counts from the next block on.

@@ -16,9 +16,9 @@ struct HelpNote {
   bool own = false;               ///< placed without help
 };
 
-/// Lets the help fade with the visitor's skill: every placed block takes kEach off its strength, one placed without help
-/// kOwn; a dropped block gives kEach back. Tells the help what stands and where a held block belongs. Thread: view;
-/// takeNotes() any.
+/// Lets the help fade with the visitor's skill: every placed block takes kEach off its strength, one placed without
+/// help kOwn; a dropped block gives kEach back. Tells the help what stands and where a held block belongs. Thread:
+/// view; takeNotes() any.
 class HelpLevel final : public Module {
  public:
   HelpLevel(std::shared_ptr<const World> world, std::shared_ptr<GraspHelp> help);

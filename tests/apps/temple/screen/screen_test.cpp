@@ -71,9 +71,9 @@ class VisitScreen : public testing::TestWithParam<std::string> {
 
 // Names of files and scenes, symbols, units, states of the output stage, terms of the trade.
 TEST_P(VisitScreen, HasNoJargon) {
-  static const std::regex kJargon(
-      R"(_|=|\b(HIP|proxy|fingertip|friction|cone|stick|slip|normal|tang|rate|tick|Hz|output|fading|rig|haptic|body|N)\b)",
-      std::regex::icase);
+  static const std::regex kJargon(R"(_|=|\b(HIP|proxy|fingertip|friction|cone|stick|slip|normal|tang|rate|tick|Hz)\b|)"
+                                  R"(\b(output|fading|rig|haptic|body|N)\b)",
+                                  std::regex::icase);
   for (int state = 0; state < 4; ++state) {
     if (state == 1) frame.guidance->hint_goal = 0, frame.guidance->hint_body = 0;
     if (state == 2) frame.guidance->body = 0, frame.guidance->held = true, frame.guidance->goal = 0;

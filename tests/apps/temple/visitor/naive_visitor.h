@@ -17,10 +17,10 @@ struct Cues {
   bool drop_lines = false;  ///< shadow and drop line of the fingertips: depth is seen, not guessed
 };
 
-/// A scripted visitor who has never seen the program, with a mouse. It is a model of what mouse users do and no person:
-/// it has to find out drag, wheel, Shift and keys, guesses depth, overshoots, trembles, rests for seconds, takes any
-/// block first, and in some of the visits ignores what it is shown. It sees the bodies, its own fingertips and the words
-/// of the guide, and acts through MouseHand alone. Equal seeds act equally. Thread: view.
+/// A scripted visitor who has never seen the program, with a mouse. It is a model of what mouse users do and no
+/// person: it has to find out drag, wheel, Shift and keys, guesses depth, overshoots, trembles, rests for seconds,
+/// takes any block first, and in some of the visits ignores what it is shown. It sees the bodies, its own fingertips
+/// and the words of the guide, and acts through MouseHand alone. Equal seeds act equally. Thread: view.
 class NaiveVisitor final : public Module {
  public:
   /// `practised`: knows the controls and sees depth well.

@@ -76,7 +76,8 @@ TEST(NaiveVisitor, WithoutHelpAndWordsDoesNot) {
   EXPECT_EQ(failures(1, kVisitors, false, {}), kVisitors);
 }
 
-// Nor so clumsy that nothing could be learned: knowing the controls, with a still hand, it places blocks without any help.
+// Nor so clumsy that nothing could be learned: knowing the controls, with a still hand, it places blocks without any
+// help.
 TEST(NaiveVisitor, PractisedPlacesBlocksWithoutHelp) {
   int placed = 0;
   std::string diaries;
