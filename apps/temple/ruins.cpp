@@ -7,6 +7,7 @@
 #include "apps/common/atomic_file.h"
 #include "apps/temple/drop.h"
 #include "apps/temple/spots.h"
+#include "apps/temple/standing_blocks.h"
 #include "framework/core/diagnostics/refuse.h"
 
 namespace presa::temple {
@@ -163,6 +164,7 @@ class Strewing {
 
 Ruins strewRuins(const Building& building, std::uint64_t seed, const std::string& folder,
                  const RuinsProgress& progress) {
+  if (building.upright) return standBlocks(building, seed);
   return Strewing(building, seed, folder, progress).strew();
 }
 

@@ -31,7 +31,7 @@ constexpr double kFinish = 8;            // time to show the result to spectator
 constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
-  std::string size = "column", parameters, folder, rig, view, screenshot, video, summary, language = "en";
+  std::string size, parameters, folder, rig, view, screenshot, video, summary, language = "en";
   std::vector<std::string> show;  // as in RunOptions
   PictureArguments asked;
   std::string visits;                    // folder of saved visits; empty: the default
@@ -42,6 +42,7 @@ struct Arguments {
   double time_scale = 0;    // simulated seconds per wall-clock second; 0: none
   double attract = 0;       // [s]; 0: never
   bool attracting = false;  // no visitor came during the previous ruins
+  bool no_help = false;
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
   /// True when the building is to be assembled, rather than only drawn or written.
@@ -49,6 +50,8 @@ struct Arguments {
     return automatic || go_on || attract > 0 || limit > 0 || time_scale > 0 || !screenshots.empty() || !video.empty() ||
            (folder.empty() && screenshot.empty());
   }
+  /// True when somebody with a mouse is to rebuild it.
+  bool anybody() const { return visit() && !automatic && rig.empty() && !go_on; }
   bool realtime() const { return !lockstep && time_scale == 0; }
 };
 
@@ -196,7 +199,8 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
                                  .attracting = a.attracting,
                                  .folder = visitFolder(a),
                                  .start = std::move(start),
-                                 .language = a.language};
+                                 .language = a.language,
+                                 .help = !a.no_help};
   if (!a.lockstep) return temple::visit(std::move(loaded), settings);
   terminal::JobProgress progress(building.blocks.size());
   int done = 0;
@@ -311,9 +315,14 @@ void addTemple(Command app, int& status) {
       .positive();
   command.option("--continue", a->kept, "continue from a session.json, also after a crash (default: that of --session)")
       .values(0, 1);
-  command.option("--size", a->size, "column: six pieces; facade: a front of four columns, 45 pieces")
-      .oneOf(temple::shippedNames())
-      .showDefault();
+  command
+      .option("--size", a->size,
+              "first: a short column of three pieces; column: six pieces; facade: a front of four columns, 45 pieces\n"
+              "(default: first for a visitor with a mouse, else column)")
+      .oneOf(temple::shippedNames());
+  command.flag("--no-help", a->no_help,
+               "do not help a visitor with a mouse to grasp (the help fades with every block placed; a device that is "
+               "felt never gets any)");
   command.flag("--assembled,--no-ruins", a->assembled,
                "every block where it belongs, instead of ruins strewn by a physics drop");
   command.option("--seed", a->seed, "seed of the damage to the stones and of the places where the blocks fell")
@@ -351,6 +360,7 @@ void addTemple(Command app, int& status) {
       "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
   command.action([a, command, &status] {
     a->go_on = command.given("--continue");
+    if (a->size.empty()) a->size = a->anybody() && a->parameters.empty() ? "first" : "column";
     status = runTemple(*a);
   });
 }

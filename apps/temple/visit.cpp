@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "apps/common/terminal_run.h"
+#include "apps/temple/help/help_level.h"
+#include "apps/temple/help/helped_finger.h"
 #include "apps/temple/shared_finger.h"
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_observer.h"
@@ -31,7 +33,11 @@ class Visit {
     run.more.push_back(std::move(observer));
     run.paced = settings.time_scale > 0;
     if (run.paced) run.speed = settings.time_scale;
-    if (settings.attract > 0) run.wrap = [this](DeviceList devices) { return share(std::move(devices)); };
+    if (settings.help) addHelp(run);
+    run.wrap = [this](DeviceList devices) {
+      if (help_) devices = helped(std::move(devices), help_);
+      return settings_.attract > 0 ? share(std::move(devices)) : std::move(devices);
+    };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
     run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
     if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, world_->scene, settings.language);
@@ -50,6 +56,14 @@ class Visit {
   }
 
  private:
+  void addHelp(TerminalRun::Settings& run) {
+    if (!std::ranges::any_of(world_->rig.devices, [](const DeviceBinding& d) { return d.driver == "pointer"; })) return;
+    help_ = std::make_shared<GraspHelp>(world_);
+    auto level = std::make_unique<HelpLevel>(world_, help_);
+    help_level_ = level.get();
+    run.more.push_back(std::move(level));
+  }
+
   DeviceList share(DeviceList devices) {
     for (std::unique_ptr<Device>& device : devices) {
       auto shared = std::make_unique<SharedFinger>(std::move(device));
@@ -63,6 +77,7 @@ class Visit {
     observer_->showOn(session.view());
     const VisitObserver::Snapshot snapshot = observer_->snapshot();
     if (log_) log_->note(observer_->takeEvents(), snapshot);
+    if (log_ && help_level_ != nullptr) log_->note(help_level_->takeNotes());
     const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
     const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
     if (settings_.attract > 0) takeTurns(snapshot, touched);
@@ -90,6 +105,7 @@ class Visit {
 
   void give(const VisitObserver::Snapshot& snapshot, bool to_hands) {
     attracting_ = to_hands;
+    if (help_) help_->setActive(!to_hands);
     touched_at_ = snapshot.time;
     for (std::size_t f = 0; f < fingers_.size(); ++f) fingers_[f]->give(to_hands ? makeHand(f) : nullptr);
     observer_->setBanner(to_hands ? assembly_.words.invitation : "");
@@ -118,6 +134,8 @@ class Visit {
   const Assembly& assembly_;
   const RebuildObserver* rebuild_observer_ = nullptr;  // this and observer_: owned by the run
   VisitObserver* observer_ = nullptr;
+  std::shared_ptr<GraspHelp> help_;  // null: no help
+  HelpLevel* help_level_ = nullptr;  // owned by the run, with help_
   std::unique_ptr<TerminalRun> run_;
   std::optional<VisitLog> log_;
   std::optional<double> done_at_;  // [s]

@@ -15,10 +15,11 @@ struct VisitSettings {
   bool quiet = false;     ///< no status line
   /// Idle time after which simulated hands take over, until the visitor's next input [simulated s]; 0: never.
   double attract = 0;
-  bool attracting = false;                                    ///< the simulated hands begin
-  std::string folder{};                                       ///< folder for saving (VisitLog); empty: not saved
-  KeptSession start{};                                        ///< initial state
-  std::string language{};                                     ///< language, for the log
+  bool attracting = false;  ///< the simulated hands begin
+  std::string folder{};     ///< folder for saving (VisitLog); empty: not saved
+  KeptSession start{};      ///< initial state
+  std::string language{};   ///< language, for the log
+  bool help = true;         ///< help a visitor with a mouse to grasp (GraspHelp); no effect on devices that are felt
   std::function<bool(int placed, int pieces)> progress = {};  ///< called regularly; return false to stop
 };
 

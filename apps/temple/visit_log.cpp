@@ -73,6 +73,18 @@ void VisitLog::note(const std::vector<GuideEvent>& events, const VisitObserver::
   if (changed) keep(snapshot);
 }
 
+void VisitLog::note(const std::vector<HelpNote>& notes) {
+  for (const HelpNote& note : notes)
+    write(Json{{"event", "help"},
+               {"time_s", rounded(note.time)},
+               {"strength", rounded(note.strength)},
+               {"grasp_off_m", rounded(note.need.grasp)},
+               {"place_off_m", rounded(note.need.place)},
+               {"own", note.own},
+               {"placed", kept_.placed}}
+              .dump());
+}
+
 void VisitLog::keep(const VisitObserver::Snapshot& snapshot) {
   kept_.elapsed = snapshot.now.elapsed;
   kept_.placed = snapshot.now.placed;

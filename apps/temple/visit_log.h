@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/temple/help/help_level.h"
 #include "apps/temple/kept_session.h"
 #include "apps/temple/visit_observer.h"
 
@@ -16,6 +17,8 @@ class VisitLog {
   VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language);
 
   void note(const std::vector<GuideEvent>& events, const VisitObserver::Snapshot& snapshot);
+  /// How strong the help with grasping is from now on, and how much of it the last block needed.
+  void note(const std::vector<HelpNote>& notes);
   /// Events that do not come from the guide: "attract", "takeover", "end".
   void note(const std::string& event, double time);
 

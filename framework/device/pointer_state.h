@@ -17,6 +17,7 @@ struct PointerState {
                                ///< direction in which a stylus leans
   double closing = 0;          ///< 0: wide open; 1: closed as hard as the pair may
   double tilt = 0;             ///< of a stylus, from upright [rad]
+  double wheel = 0;  ///< sum of all steps of closing, unbounded: counts them also where `closing` is at its end
 };
 
 }  // namespace presa

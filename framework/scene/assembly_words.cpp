@@ -54,12 +54,14 @@ void checkPhrase(const xml::Element& words, const AssemblyPhrase& phrase, Diagno
 
 void checkWords(const xml::Element& words, Diagnostics& diagnostics) {
   for (const AssemblyPhrase& phrase : assemblyPhrases()) checkPhrase(words, phrase, diagnostics);
-  std::vector<std::string> names;
-  for (const xml::Element& element : words.children("element")) {
-    const std::string name = element.attribute("name");
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      diagnostics.error(203, element.where("name"), "a second element is named " + quote(name));
-    names.push_back(name);
+  for (const char* kind : {"element", "action"}) {
+    std::vector<std::string> names;
+    for (const xml::Element& element : words.children(kind)) {
+      const std::string name = element.attribute("name");
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        diagnostics.error(203, element.where("name"), std::string("a second ") + kind + " is named " + quote(name));
+      names.push_back(name);
+    }
   }
 }
 
@@ -71,6 +73,8 @@ AssemblyWords readWords(const xml::Element& element) {
   for (const xml::Element& one : element.children("element"))
     words.elements.push_back(
         {one.attribute("name"), one.attribute("called"), one.attribute("says"), one.attribute("waits")});
+  for (const xml::Element& one : element.children("action"))
+    words.actions.push_back({one.attribute("name"), one.attribute("keys"), one.attribute("does")});
   return words;
 }
 

@@ -16,6 +16,12 @@ struct AssemblyWords {
     std::string says;    ///< one sentence about it
     std::string waits;   ///< reason why it cannot be placed yet: "The capital needs its drum first."
   };
+  /// Something that a visitor does with mouse or keys, such as "drag".
+  struct Action {
+    std::string name;  ///< drag, pinch, lift, turn: shown by a hand at the start; others only in the help
+    std::string keys;  ///< what to do: "Turn the wheel forwards"
+    std::string does;  ///< what happens: "the fingers close"
+  };
   std::string language = "en";
   std::string progress = "{count} of {all}";
   std::string next = "Next: {element}";
@@ -26,6 +32,7 @@ struct AssemblyWords {
   std::string took = "In {time}.";
   std::string invitation = "Touch to begin";
   std::vector<Element> elements;
+  std::vector<Action> actions;  ///< in the order of the help table; empty: not for visitors with a mouse
 };
 
 /// A phrase: its attribute in the XML, its text, and the placeholders it may use.

@@ -9,6 +9,7 @@
 #include "framework/device/output_stage.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/legend.h"
+#include "modules/view_osg/visit_screen.h"
 
 namespace presa::view {
 namespace {
@@ -58,7 +59,7 @@ std::string outputWords(std::uint32_t status) {
 }  // namespace
 
 Hud::Hud(const World& world, const RunOptions& options)
-    : world_(world), level_(options.picture.hud), ink_(inkOn(options.picture.background)) {
+    : world_(world), level_(options.picture.hud), ink_(inkOn(options.picture.background)), plain_(forVisitors(world)) {
   camera_->setName("head-up display");
   camera_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera_->setViewMatrix(osg::Matrixd::identity());
@@ -139,7 +140,7 @@ void Hud::showFigures(bool shown) { figures_->setNodeMask(shown ? ~0U : 0U); }
 
 void Hud::toggleHelp() {
   help_->setNodeMask(~help_->getNodeMask());
-  if (!assembly_ || level_ != Level::kFull) return;
+  if (!assembly_ || plain_ || level_ != Level::kFull) return;
   right_figures_->setNodeMask(help_->getNodeMask());
   left_figures_->setNodeMask(help_->getNodeMask());
 }
@@ -159,9 +160,10 @@ void Hud::setBanner(const std::string& text, bool alarm) {
 }
 
 void Hud::addTitle(const World& world) {
-  Label title(*title_, kMargin + 2, kHeight - 42, 25, ink_.text, Typeface::kBold);
+  osg::Group& parent = plain_ ? *left_figures_ : *title_;
+  Label title(parent, kMargin + 2, kHeight - 42, 25, ink_.text, Typeface::kBold);
   title.set(world.scene.name.empty() ? "scene" : world.scene.name);
-  time_.emplace(*title_, kMargin + 2, kHeight - 67, 16, ink_.soft, Typeface::kMono);
+  time_.emplace(parent, kMargin + 2, kHeight - 67, 16, ink_.soft, Typeface::kMono);
 }
 
 void Hud::addCard(std::size_t index) {
@@ -214,7 +216,8 @@ void Hud::addRates(const World& world, bool bus) {
     y -= kRow;
   }
   right_->addChild(notes_);
-  output_.emplace(*notes_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold, Label::Align::kRight);
+  output_.emplace(plain_ ? *right_figures_ : *notes_, -kMargin - 4, kTop - height - 20, 14, kAlarm, Typeface::kBold,
+                  Label::Align::kRight);
 }
 
 void Hud::addLegend(bool interactive) {
@@ -253,7 +256,8 @@ void Hud::addLegend(bool interactive) {
 }
 
 void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines) {
-  constexpr float kLine = 22, kHalf = 290;
+  constexpr float kLine = 22;
+  const float kHalf = plain_ ? 450 : 290;
   const float top = kLine * static_cast<float>(lines.size()) / 2 + 10;
   center_->removeChild(help_);
   center_->addChild(help_);  // above everything added there meanwhile

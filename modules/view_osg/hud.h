@@ -83,6 +83,7 @@ class Hud {
   const World& world_;
   const Level level_;
   const Ink ink_;
+  const bool plain_;  ///< for visitors: no figures, not even with the help
   std::optional<AssemblyPanel> assembly_;
   std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;

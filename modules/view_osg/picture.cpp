@@ -46,8 +46,10 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       offsets_top_(options.picture.hud == PictureOptions::Hud::kFull ? kBelowRates : Hud::kHeight - 18) {
   addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
-  casters_->addChild(glyphs_.casters());
+  finger_casters_->addChild(glyphs_.casters());
+  casters_->addChild(finger_casters_);
   if (world_->scene.assembly) guides_ = std::make_unique<Guides>(world_->scene, bodies_);
+  if (forVisitors(*world_)) prepareForVisitors(options);
   ViewFrame start;
   start.X_WB = startPoses(*world_);
   updateSubject(start, {});
@@ -74,6 +76,17 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   if (!options.participant) return;
   panel_.emplace(hud_.participantCenter());
   setScreen({});
+}
+
+// Fingers that are seen from afar in place of the glyphs of a laboratory, unless those are asked for.
+void Picture::prepareForVisitors(const RunOptions& options) {
+  finger_marks_ = std::make_unique<FingerMarks>(*world_, world_->scene.devices.size());
+  space_->addChild(finger_marks_->root());
+  finger_casters_->addChild(finger_marks_->casters());
+  if (withMouse(*world_)) show_how_ = std::make_unique<ShowHow>(hud_.left(), world_->scene);
+  if (!options.show.empty()) return;
+  for (const ShownPart part : {ShownPart::kHips, ShownPart::kProxies, ShownPart::kCones, ShownPart::kForces})
+    parts_.set(part, false);
 }
 
 void Picture::setScreen(const ParticipantScreen& screen) {
@@ -148,7 +161,7 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
     appearance.insert(appearance.end(), {static_cast<double>(finger.mode), shades});
   }
   if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
-  return watch_->update({frame.X_WB, *glyphs_.casters(), others, appearance, kSeen * radius});
+  return watch_->update({frame.X_WB, *finger_casters_, others, appearance, kSeen * radius});
 }
 
 void Picture::showOffsets(bool shown, const ViewFrame& frame) {
@@ -172,6 +185,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
     const double glow = told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0;
     if (lighting_.setGlow(glow)) watch_->changeAll();
   }
+  if (finger_marks_) finger_marks_->update(fingers, frame.X_WB);
+  if (show_how_) show_how_->update(frame, fingers);
   glyphs_.show(parts);
   overlays_.update(parts, frame.X_WB, frame.asleep);
   neighbourhoods_.update(parts[ShownPart::kPatches], frame.neighbourhoods, frame.X_WB);

@@ -9,6 +9,7 @@
 #include "modules/view_osg/change_watch.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
+#include "modules/view_osg/finger_marks.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
@@ -18,7 +19,9 @@
 #include "modules/view_osg/participant_panel.h"
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
+#include "modules/view_osg/show_how.h"
 #include "modules/view_osg/time_bar.h"
+#include "modules/view_osg/visit_screen.h"
 
 namespace presa::view {
 
@@ -33,6 +36,9 @@ class Picture {
   TimeBar& timeBar() { return time_bar_; }
   /// The visible parts, from the next frame on.
   ShownParts& parts() { return parts_; }
+
+  /// The help table in the visitors' language; empty: not for visitors.
+  std::vector<std::pair<std::string, std::string>> visitorHelp() const { return view::visitorHelp(*world_); }
 
   /// Collects data for the plots. Call in every step, drawn or not.
   void follow(const ViewFrame& frame, const GroupTimings& timings) {
@@ -60,6 +66,7 @@ class Picture {
   void setSize(int width, int height);
 
  private:
+  void prepareForVisitors(const RunOptions& options);
   ShownParts partsNow() const;
   bool changed(const ViewFrame& frame, const std::vector<FingerView>& fingers, const ShownParts& parts, double radius);
   void showOffsets(bool shown, const ViewFrame& frame);
@@ -73,8 +80,10 @@ class Picture {
   Overlays overlays_;
   NeighbourhoodLines neighbourhoods_;
   FeltRelief relief_;
-  std::unique_ptr<Guides> guides_;  // only in scenes with an assembly
-  osg::ref_ptr<osg::Group> casters_ = new osg::Group;
+  std::unique_ptr<Guides> guides_;             // only in scenes with an assembly
+  std::unique_ptr<FingerMarks> finger_marks_;  // only for visitors
+  std::unique_ptr<ShowHow> show_how_;          // only for visitors with a mouse
+  osg::ref_ptr<osg::Group> casters_ = new osg::Group, finger_casters_ = new osg::Group;
   std::vector<osg::Node*> still_;  // parts of the space that do not move, and the bodies
   Lighting lighting_;
   Hud hud_;

@@ -11,16 +11,32 @@ constexpr double kFlattest = 0.3;
 
 }  // namespace
 
-void PointerControl::begin(const DeviceState& device) {
-  if (begun_ || fingers_.empty()) return;
+/// Middle between the fingers; none as long as one has no sample.
+std::optional<Vec3> PointerControl::middle(const DeviceState& device) const {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t f : fingers_) {
-    if (f >= static_cast<std::size_t>(device.count()) || !device.fingers[f].valid) return;
+  for (const std::size_t f : fingers_) {
+    if (f >= static_cast<std::size_t>(device.count()) || !device.fingers[f].valid) return std::nullopt;
     sum += device.fingers[f].p_WH;
-    stylus_ = device.fingers[f].oriented;
   }
-  state_.p_WT = sum / static_cast<double>(fingers_.size());
+  return fingers_.empty() ? std::nullopt : std::optional<Vec3>(sum / static_cast<double>(fingers_.size()));
+}
+
+void PointerControl::begin(const DeviceState& device) {
+  if (begun_) return;
+  const std::optional<Vec3> start = middle(device);
+  if (!start) return;
+  stylus_ = device.fingers[fingers_.back()].oriented;
+  state_.p_WT = *start;
   begun_ = true;
+}
+
+void PointerControl::heed(const DeviceState& device) {
+  const std::optional<Vec3> now = middle(device);
+  if (!begun_ || !now) return;
+  const double z = std::clamp(state_.p_WT.z(), now->z() - kLead, now->z() + kLead);
+  if (z == state_.p_WT.z()) return;
+  state_.p_WT.z() = z;
+  changed();
 }
 
 void PointerControl::dragLevel(double right, double up, const CameraControl& camera) {
@@ -48,6 +64,7 @@ void PointerControl::turn(double angle) {
 
 void PointerControl::close(double steps) {
   if (!begun_) return;
+  state_.wheel += steps * kCloseStep;
   if (stylus_)
     state_.tilt = std::clamp(state_.tilt + steps * kTurnStep, -kMaxTilt, kMaxTilt);
   else

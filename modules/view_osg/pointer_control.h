@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "framework/core/state/device_state.h"
@@ -14,6 +15,7 @@ class PointerControl {
   static constexpr double kStep = 0.005;                   ///< per arrow key [m]
   static constexpr double kTurnStep = 0.0872664625997165;  ///< per key, five degrees [rad]
   static constexpr double kCloseStep = 0.04;               ///< per wheel notch or key
+  static constexpr double kLead = 0.1;                     ///< max vertical distance of target and fingers [m]
   static constexpr double kMaxTilt = 1.4;                  ///< [rad]
 
   /// Indices into DeviceState::fingers.
@@ -21,6 +23,9 @@ class PointerControl {
 
   /// Takes the start position as soon as all fingers deliver samples; no effect afterwards.
   void begin(const DeviceState& device);
+  /// Keeps the target within kLead of the fingers' height, so that a drag against the ground, or against help, need not
+  /// be undone by one of the same length. Call once per frame.
+  void heed(const DeviceState& device);
 
   /// Mouse drag in halves of the picture's height: moves the pair in a level plane, under the mouse.
   void dragLevel(double right, double up, const CameraControl& camera);
@@ -35,6 +40,7 @@ class PointerControl {
   const PointerState& state() const { return state_; }
 
  private:
+  std::optional<Vec3> middle(const DeviceState& device) const;
   void changed() { ++state_.sequence; }
 
   std::vector<std::size_t> fingers_;

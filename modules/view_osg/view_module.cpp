@@ -54,12 +54,14 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
+    const bool nameless = options_.participant || forVisitors(*world_);
     renderer_ = windowed()
-                    ? makeWindowRenderer(*picture_, options_.participant ? "Presa" : "Presa: " + world_->scene.name,
+                    ? makeWindowRenderer(*picture_, nameless ? "Presa" : "Presa: " + world_->scene.name,
                                          {.pointer = pointer_ ? &*pointer_ : nullptr,
                                           .time = time_,
                                           .undo = world_->scene.assembly.has_value(),
-                                          .participant = options_.participant.has_value()},
+                                          .participant = options_.participant.has_value(),
+                                          .visitor = forVisitors(*world_)},
                                          options_.picture)
                     : makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
   } catch (const std::exception& error) {
@@ -146,7 +148,10 @@ void ViewModule::show() {
 
 void ViewModule::drawWindow() {
   show();
-  if (pointer_) pointer_->begin(frame_.device);
+  if (pointer_) {
+    pointer_->begin(frame_.device);
+    pointer_->heed(frame_.device);
+  }
   renderer_->render();
   if (pointer_) pointer_out_->value = pointer_->state();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
@@ -156,7 +161,7 @@ void ViewModule::drawWindow() {
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
   const std::string trouble = savePicture(file);
-  picture_->hud().tell(trouble.empty() ? "saved " + file : trouble);
+  picture_->hud().tell(!trouble.empty() ? trouble : forVisitors(*world_) ? "\xe2\x9c\x93" : "saved " + file);
 }
 
 bool ViewModule::screenshotDue() const {

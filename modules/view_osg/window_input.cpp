@@ -49,13 +49,14 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       return true;
     case Event::RELEASE:
       if (event.getButton() == Event::LEFT_MOUSE_BUTTON && !controls_.participant && drag_ != Drag::kNone &&
-          drag_ != Drag::kTime && dragged_ < kStill)
+          drag_ != Drag::kTime && dragged_ < kStill && !controls_.visitor)
         click(event, false);
       drag_ = Drag::kNone;
       return true;
     case Event::DOUBLECLICK:
       drag_ = Drag::kNone;
-      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && !controls_.participant) click(event, true);
+      if (event.getButton() == Event::LEFT_MOUSE_BUTTON && !controls_.participant && !controls_.visitor)
+        click(event, true);
       return true;
     case Event::SCROLL:
       scroll(event);
@@ -141,9 +142,11 @@ bool WindowInput::key(const Event& event) {
       picture_.parts().toggle(ShownPart::kOffset);
       return true;
     case 'g':
+      if (controls_.visitor) return true;
       picture_.parts().toggle(ShownPart::kPlots);
       return true;
     case 't':
+      if (controls_.visitor) return true;
       picture_.parts().toggle(ShownPart::kTexture);
       return true;
     case 'u':
@@ -156,6 +159,7 @@ bool WindowInput::key(const Event& event) {
       break;
   }
   if (key >= '0' && key <= '9') {
+    if (controls_.visitor) return true;
     picture_.parts().toggle(static_cast<ShownPart>((key - '0' + 9) % 10));
     return true;
   }

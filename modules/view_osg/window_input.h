@@ -16,6 +16,8 @@ struct Controls {
   bool undo = false;  ///< undo is available
   /// The window is a participant's: only the pointer's mouse and keys act in it, and it stays open for the next run.
   bool participant = false;
+  /// The window is a visitor's: no key or click shows figures.
+  bool visitor = false;
 };
 
 /// Counters since the start: undo requests, and inputs of any kind.

@@ -48,8 +48,11 @@ class WindowRenderer final : public Renderer {
     viewer_.addEventHandler(input_);
     viewer_.setSceneData(retained_ ? retained_->root() : picture.root());
     std::vector<std::pair<std::string, std::string>> help;
-    for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
-      help.emplace_back(line.keys, line.what);
+    if (controls.visitor)
+      help = picture.visitorHelp();
+    else
+      for (const HelpLine& line : helpLines(controls, picture.timeBar().length() > 0))
+        help.emplace_back(line.keys, line.what);
     picture.hud().setHelp(help);
     input_->setAspect(static_cast<double>(size.width) / size.height);
     setSize(size.width, size.height, 1);

@@ -43,7 +43,8 @@ struct Building {
   std::string name;
   std::vector<Block> blocks;  ///< in an order in which it can be built
   std::vector<Footing> footings;
-  double top = 0;  ///< highest point above the ground [m]
+  bool upright = false;  ///< Proportions::upright
+  double top = 0;        ///< highest point above the ground [m]
 };
 
 }  // namespace presa::temple

@@ -16,6 +16,7 @@ class Builder {
   Builder(const Proportions& proportions, double behind, std::uint64_t seed)
       : p_(proportions), behind_(behind), seed_(seed) {
     building_.name = p_.name;
+    building_.upright = p_.upright;
     if (p_.entablature) intervals_ = p_.entablature->intervals;
     span_ = std::accumulate(intervals_.begin(), intervals_.end(), 0.0) * p_.module;
   }

@@ -142,6 +142,7 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
   if (!valid) return p;
   checkVersion(root, diagnostics);
   p.name = root.attribute("name");
+  p.upright = root.attribute("lie") == "upright";
   p.module = only("module")->number("value", 0);
   p.stone = readStone(Part(*only("stone")), diagnostics);
   const Part steps(*only("steps"));
@@ -155,7 +156,7 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::vector<std::string> shippedNames() { return {"column", "facade"}; }
+std::vector<std::string> shippedNames() { return {"first", "column", "facade"}; }
 
 Proportions readProportions(const std::string& file, Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
@@ -163,11 +164,14 @@ Proportions readProportions(const std::string& file, Diagnostics& diagnostics) {
 }
 
 Proportions shippedProportions(const std::string& name, Diagnostics& diagnostics) {
-  const char* text = name == "column" ? shipped::column : name == "facade" ? shipped::facade : nullptr;
+  const char* text = name == "first"    ? shipped::first
+                     : name == "column" ? shipped::column
+                     : name == "facade" ? shipped::facade
+                                        : nullptr;
   if (text == nullptr) {
     diagnostics.error(976, {name, 0, 0},
                       "there is no building of size " + quote(name) + didYouMean(name, shippedNames()),
-                      "column or facade; --parameters FILE takes any other");
+                      "first, column or facade; --parameters FILE takes any other");
     return {};
   }
   const auto document = xml::Document::parse(text, "config/temple/" + name + ".xml", diagnostics);

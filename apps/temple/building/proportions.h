@@ -11,7 +11,8 @@ namespace presa::temple {
 /// Contents of a file of config/temple. Lengths without a unit are in modules (half a column's lower diameter).
 struct Proportions {
   std::string name;
-  double module = 0;  ///< [m]
+  bool upright = false;  ///< in the ruins the blocks stand apart from each other instead of lying as they fell
+  double module = 0;     ///< [m]
   struct Stone {
     double density = 0, lightest = 0,
            heaviest = 0;    ///< [kg/m^3], [kg], [kg]: mass = density * volume, clamped to lightest..heaviest
@@ -50,8 +51,8 @@ struct Proportions {
   std::optional<Pediment> pediment;
 };
 
-/// Reads and checks a file, or the shipped building of that name ("column", "facade"). Errors go to `diagnostics`; the
-/// result is valid only if there are none. Never throws for bad input.
+/// Reads and checks a file, or the shipped building of that name ("first", "column", "facade"). Errors go to
+/// `diagnostics`; the result is valid only if there are none. Never throws for bad input.
 ///   E970 format version  E971 drums, capital and dowels that do not fit each other
 ///   E972 triglyphs that do not fit the columns  E973 pediment without cornice, too steep or too flat
 ///   E975 masses  E976 no shipped building of that name

@@ -3,6 +3,7 @@
 namespace presa::temple::shipped {
 extern const char* const column;
 extern const char* const facade;
+extern const char* const first;
 extern const char* const words_en;
 extern const char* const words_it;
 }  // namespace presa::temple::shipped

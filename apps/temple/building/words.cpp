@@ -31,6 +31,11 @@ AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
     diagnostics.error(968, root.where(), std::string("a ") + elementName(kind) + " has no <element> with its texts",
                       std::string("<element name=\"") + elementName(kind) + "\" called=\"…\" says=\"…\" waits=\"…\"/>");
   }
+  for (const char* action : {"drag", "pinch", "lift", "turn"}) {
+    if (std::ranges::find(words.actions, action, &AssemblyWords::Action::name) != words.actions.end()) continue;
+    diagnostics.error(968, root.where(), std::string("nothing says how to ") + action,
+                      std::string("<action name=\"") + action + "\" keys=\"…\" does=\"…\"/>");
+  }
   return words;
 }
 
@@ -89,6 +94,9 @@ std::string wordsText(const AssemblyWords& words) {
   for (const AssemblyWords::Element& element : words.elements)
     text += "      <element" + attribute("name", element.name) + attribute("called", element.called) +
             attribute("says", element.says) + attribute("waits", element.waits) + "/>\n";
+  for (const AssemblyWords::Action& action : words.actions)
+    text += "      <action" + attribute("name", action.name) + attribute("keys", action.keys) +
+            attribute("does", action.does) + "/>\n";
   return text + "    </words>\n";
 }
 

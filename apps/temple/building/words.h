@@ -14,8 +14,8 @@ const char* elementName(BlockKind kind);
 /// Languages of the shipped words: "en", "it".
 std::vector<std::string> shippedLanguages();
 /// Reads the shipped words (config/temple/words_LANGUAGE.xml) and checks that every kind of block has an entry. Errors
-/// go to `diagnostics` (E966 format version, E969 unknown language, E968 a kind of block without words, E203, E219).
-/// Never throws for bad input.
+/// go to `diagnostics` (E966 format version, E969 unknown language, E968 a kind of block, or something to do, without
+/// words, E203, E219). Never throws for bad input.
 AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics);
 /// The same from a file.
 AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics);

@@ -48,7 +48,16 @@ TEST_P(Neighbours, TouchWhatTheyStandOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Buildings, Neighbours, ::testing::Values("column", "facade"));
+INSTANTIATE_TEST_SUITE_P(Buildings, Neighbours, ::testing::Values("first", "column", "facade"));
+
+TEST(First, HasThreePieces) {
+  const Building first = shippedBuilding("first");
+  ASSERT_EQ(first.blocks.size(), 3U);
+  EXPECT_EQ(first.blocks.back().kind, BlockKind::kCapital);
+  // one step of 0.33 modules and five modules
+  EXPECT_NEAR(first.top, (0.33 + 5) * 0.024, 1e-9);
+  EXPECT_TRUE(first.upright);
+}
 
 TEST(Column, HasSixPieces) {
   const Building column = shippedBuilding("column");

@@ -47,6 +47,25 @@ TEST(Ruins, OfAColumnLieStillForEverySeed) {
   }
 }
 
+/// Distance of the blocks' axes that leaves room for two open fingertips around one of them: half of the pointer's span
+/// of 120 mm, a fingertip 16 mm thick, and half of the widest block.
+TEST(Ruins, OfTheFirstTaskStandApartAndUpright) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Building first = shippedBuilding("first", seed);
+    const Ruins ruins = ruinsOf(first, seed);
+    ASSERT_EQ(ruins.X_WB.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      double low = 1e300;
+      for (const Vec3& vertex : first.blocks[i].haptic.vertices) low = std::min(low, (ruins.X_WB[i] * vertex).z());
+      EXPECT_NEAR(low, 0, 1e-12) << "it stands on the ground";
+      EXPECT_NEAR((ruins.X_WB[i].q * Vec3::UnitZ()).z(), 1, 1e-12);
+      for (std::size_t j = i + 1; j < 3; ++j)
+        EXPECT_GT((ruins.X_WB[i].p - ruins.X_WB[j].p).head<2>().norm(), 0.06 + 0.016 + 0.026);
+    }
+  }
+}
+
 TEST(Ruins, OfAFacadeLieStill) {
   const Building facade = shippedBuilding("facade", 1);
   expectGoodRuins(facade, ruinsOf(facade, 1));

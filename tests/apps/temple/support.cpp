@@ -71,7 +71,7 @@ std::vector<Vec3> surface(const Block& block) {
 }  // namespace
 
 Proportions shippedWith(const std::string& name, const std::string& from, const std::string& to) {
-  std::string text = name == "column" ? shipped::column : shipped::facade;
+  std::string text = name == "first" ? shipped::first : name == "column" ? shipped::column : shipped::facade;
   if (!from.empty()) {
     EXPECT_NE(text.find(from), std::string::npos) << from;
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())

@@ -37,6 +37,10 @@ TEST_P(Words, SpeakOfEveryBlockOfTheFacade) {
   EXPECT_EQ(diagnostics.text(), "");
   EXPECT_EQ(words.language, GetParam());
   EXPECT_EQ(words.elements.size(), 9U);
+  for (const AssemblyWords::Action& action : words.actions) {
+    EXPECT_LT(action.does.size(), 36U) << action.name << ": one line of the panel that shows it";
+    EXPECT_LT(action.keys.size(), 52U) << action.name << ": likewise";
+  }
   for (const AssemblyWords::Element& element : words.elements) {
     EXPECT_FALSE(element.called.empty()) << element.name;
     EXPECT_LT(element.says.size(), 125U) << element.name << ": two lines of the picture at most";
@@ -65,6 +69,12 @@ TEST_P(Words, ComeThroughASceneUnchanged) {
   for (const AssemblyPhrase& phrase : assemblyPhrases())
     EXPECT_EQ(assembly.words.*phrase.text, words.*phrase.text) << phrase.attribute;
   ASSERT_EQ(assembly.words.elements.size(), words.elements.size());
+  ASSERT_EQ(assembly.words.actions.size(), words.actions.size());
+  for (std::size_t i = 0; i < words.actions.size(); ++i) {
+    EXPECT_EQ(assembly.words.actions[i].name, words.actions[i].name);
+    EXPECT_EQ(assembly.words.actions[i].keys, words.actions[i].keys);
+    EXPECT_EQ(assembly.words.actions[i].does, words.actions[i].does);
+  }
   for (std::size_t g = 0; g < assembly.goals.size(); ++g) {
     ASSERT_NE(assembly.goals[g].element, kNoElement) << assembly.goals[g].name;
     const AssemblyWords::Element& element = assembly.words.elements[assembly.goals[g].element];
@@ -82,6 +92,8 @@ TEST(WordsFile, IsChecked) {
   EXPECT_EQ(codesOf("finished=\"It stands again.\"", "finished=\"{count} stand.\""), std::vector{219});
   EXPECT_EQ(codesOf("name=\"metope\"", "name=\"metopa\""), std::vector{968});
   EXPECT_EQ(codesOf("name=\"metope\"", "name=\"triglyph\""), (std::vector{203, 968}));
+  EXPECT_EQ(codesOf("name=\"lift\"", "name=\"lfit\""), std::vector{968});
+  EXPECT_EQ(codesOf("name=\"lift\"", "name=\"turn\""), (std::vector{203, 968}));
   EXPECT_EQ(codesOf("version=\"1.0\" language", "version=\"2.0\" language"), std::vector{966});
   EXPECT_FALSE(codesOf("says=\"The beam", "sagt=\"The beam").empty());
 }
