@@ -16,6 +16,7 @@
 #include "apps/temple/building/building.h"
 #include "apps/temple/building/words.h"
 #include "apps/temple/ruins.h"
+#include "apps/temple/ruins_cache.h"
 #include "apps/temple/visit.h"
 #include "apps/temple/written_scene.h"
 #include "framework/core/diagnostics/printable.h"
@@ -90,8 +91,8 @@ void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
                       "--screenshot-every 0.5 out/pictures");
 }
 
-/// Strews the ruins; no value when interrupted.
-std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed) {
+/// The pose of each block in the ruins, with progress; empty when interrupted.
+std::vector<Pose> strew(const temple::Building& building, std::uint64_t seed) {
   const ScratchFolder scratch;
   // one job per block, and a last one: all settle together
   terminal::JobProgress progress(building.blocks.size() + 1);
@@ -101,12 +102,22 @@ std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::
     progress.show();
     return !terminal::JobProgress::interrupted();
   };
-  const temple::Ruins ruins = temple::strewRuins(building, seed, scratch.path().string(), tell);
-  if (ruins.X_WB.empty()) return std::nullopt;
+  return temple::strewRuins(building, seed, scratch.path().string(), tell).X_WB;
+}
+
+/// The scene of the ruins; no value when interrupted.
+std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed) {
+  const std::string kept = temple::ruinsCacheFile(building, seed);
+  std::optional<std::vector<Pose>> X_WB = temple::readRuins(kept, building);
+  if (!X_WB) {
+    X_WB = strew(building, seed);
+    if (X_WB->empty()) return std::nullopt;
+    temple::keepRuins(kept, building, seed, *X_WB);
+  }
   temple::SceneSpec spec = temple::assembled(building);
   spec.name += "_ruins";
   spec.description = "What is left of a Doric building";
-  for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = ruins.X_WB[stone.block];
+  for (temple::SceneSpec::Stone& stone : spec.stones) stone.X_WB = (*X_WB)[stone.block];
   return spec;
 }
 

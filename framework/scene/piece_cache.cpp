@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "framework/core/math/fnv.h"
 #include "framework/geometry/convex.h"
+#include "framework/input/cache.h"
 #include "framework/input/input.h"
 
 namespace presa {
@@ -70,15 +70,8 @@ bool getPiece(Bytes& in, TriMesh& piece) {
 }  // namespace
 
 std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted) {
-  const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-  fs::path folder;
-  if (cache != nullptr && *cache == '/') {
-    folder = cache;
-  } else if (home != nullptr && *home == '/') {
-    folder = fs::path(home) / ".cache";
-  } else {
-    return {};
-  }
+  const std::string folder = input::cacheFolder("convex");
+  if (folder.empty()) return {};
   Fnv1a hash;
   hash.addWord(kKind);
   hash.addWord(std::uint64_t{wanted.max_pieces});
@@ -91,7 +84,7 @@ std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted) {
   }
   char name[40];
   std::snprintf(name, sizeof name, "%016llx.pieces", static_cast<unsigned long long>(hash.value()));
-  return (folder / "presa" / "convex" / name).string();
+  return (fs::path(folder) / name).string();
 }
 
 std::optional<ConvexPieces> readPieces(const std::string& file) {

@@ -6,9 +6,8 @@
 
 namespace presa {
 
-/// Convex pieces of meshes that took long to cut, kept in the user's cache by the content of mesh and settings:
-/// $XDG_CACHE_HOME/presa/convex, or ~/.cache/presa/convex. A cache that cannot be read or written is none; deleting it
-/// costs time only. Thread: before a run.
+/// Convex pieces of meshes that took long to cut, kept in the user's cache (framework/input/cache.h) by the content of
+/// mesh and settings. A cache that cannot be read or written is none. Thread: before a run.
 
 /// The file for a mesh; "" when the user has no cache folder.
 std::string pieceCacheFile(const TriMesh& mesh, const Decomposition& wanted);

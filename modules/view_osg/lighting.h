@@ -14,7 +14,7 @@ struct LightQuality {
   int map_size;  ///< [pixel]
   bool quick;    ///< for software rendering: shadows are softened in the maps, which are kept while nothing moves
 };
-inline constexpr LightQuality kFineLight{2048, false};
+inline constexpr LightQuality kFineLight{1024, false};
 inline constexpr LightQuality kQuickLight{384, true};
 
 /// Two depth maps: from the key light (shadow) and from straight above (visibility of the sky at each point). Both

@@ -326,19 +326,19 @@ void main() {
 }
 )";
 
-// mean and mean square of the depths in a square of texels
+// mean and mean square of the depths in a square of texels; of every other one in a large square
 constexpr const char* kMoments = R"(#version 130
 uniform sampler2D source;
 uniform float depth_range;
 void main() {
   ivec2 corner = SIDE * ivec2(gl_FragCoord.xy);
   vec2 sum = vec2(0.0);
-  for (int y = 0; y < SIDE; ++y)
-    for (int x = 0; x < SIDE; ++x) {
+  for (int y = 0; y < SIDE; y += STEP)
+    for (int x = 0; x < SIDE; x += STEP) {
       float depth = texelFetch(source, corner + ivec2(x, y), 0).r;
       sum += vec2(depth, depth * depth);
     }
-  sum /= float(SIDE * SIDE);
+  sum /= float(SIDE / STEP * (SIDE / STEP));
   gl_FragColor = vec4(sum.x * depth_range, sum.y * depth_range * depth_range, 0.0, 0.0);
 }
 )";
@@ -437,7 +437,8 @@ osg::ref_ptr<osg::Program> cone() { return plain("cone"); }
 
 osg::ref_ptr<osg::Program> overlay() { return copying("overlay", kOverlay); }
 osg::ref_ptr<osg::Program> moments(int side) {
-  return copying("moments", defined(kMoments, "#define SIDE " + std::to_string(side) + "\n"));
+  return copying("moments", defined(kMoments, "#define SIDE " + std::to_string(side) + "\n#define STEP " +
+                                                  (side % 2 == 0 && side > 2 ? "2" : "1") + "\n"));
 }
 osg::ref_ptr<osg::Program> blur(int half_width) {
   return copying("blur", defined(kBlur, "#define HALF " + std::to_string(half_width) + "\n"));

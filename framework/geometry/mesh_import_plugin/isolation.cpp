@@ -1,6 +1,8 @@
 #include "framework/geometry/mesh_import_plugin/isolation.h"
 
 #include <fcntl.h>
+#include <malloc.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,6 +11,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -89,6 +93,20 @@ void limit(int resource, std::size_t value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &wanted);
 }
 
+/// Lets the next large allocations come from a heap in large pages: assimp clears 16 MB for each OBJ, whose 4096 page
+/// faults would take longer than the file.
+void useLargePages() {
+#ifdef __GLIBC__
+  constexpr std::size_t kPage = 2U << 20U, kHeap = 24U << 20U;
+  mallopt(M_MMAP_THRESHOLD, 2 * kHeap);
+  mallopt(M_TRIM_THRESHOLD, 2 * kHeap);
+  void* const heap = std::malloc(kHeap);
+  const auto begin = (reinterpret_cast<std::uintptr_t>(heap) + kPage - 1) / kPage * kPage;
+  if (heap != nullptr) madvise(reinterpret_cast<void*>(begin), kHeap - kPage, MADV_HUGEPAGE);
+  std::free(heap);
+#endif
+}
+
 [[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
   // messages of a crashing reader would hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
@@ -98,6 +116,7 @@ void limit(int resource, std::size_t value) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.seconds);
   if (kLimitsMemory) limit(RLIMIT_DATA, mappedData() + limits.memory);
+  useLargePages();
   RawMesh mesh;
   try {
     work(mesh);

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "apps/temple/ruins.h"
+#include "apps/temple/ruins_cache.h"
 #include "apps/temple/spots.h"
 #include "tests/apps/temple/support.h"
 
@@ -87,6 +90,35 @@ TEST(Ruins, StopWhenAskedTo) {
   const Building column = shippedBuilding("column");
   const auto stop = [](std::size_t, std::size_t, const std::string&) { return false; };
   EXPECT_TRUE(strewRuins(column, 1, test::scratch("stopped"), stop).X_WB.empty());
+}
+
+// The next start reads what this one strewed, to the bit; a damaged file or one of another building is none.
+TEST(RuinsCache, KeepsPosesToTheBit) {
+  const Building building = shippedBuilding("first");
+  const Ruins ruins = ruinsOf(building, 3);
+  const std::string file = test::scratch("ruins_cache") + "/below/a.json";
+  EXPECT_FALSE(readRuins(file, building));
+  keepRuins(file, building, 3, ruins.X_WB);
+  const auto kept = readRuins(file, building);
+  ASSERT_TRUE(kept);
+  ASSERT_EQ(kept->size(), ruins.X_WB.size());
+  for (std::size_t i = 0; i < kept->size(); ++i) {
+    EXPECT_EQ((*kept)[i].p, ruins.X_WB[i].p);
+    EXPECT_EQ((*kept)[i].q.coeffs(), ruins.X_WB[i].q.coeffs());
+  }
+  EXPECT_FALSE(readRuins(file, shippedBuilding("column")));
+  std::filesystem::resize_file(file, 100);
+  EXPECT_FALSE(readRuins(file, building));
+  keepRuins("/proc/no/such/place.json", building, 3, ruins.X_WB);  // no cache, and no fault
+}
+
+TEST(RuinsCache, HasAFileForEachBuildingAndSeed) {
+  const std::string one = ruinsCacheFile(shippedBuilding("first"), 1);
+  if (one.empty())
+    GTEST_SKIP() << "this build keeps no ruins: no cache folder, or sources that differ from their commit";
+  EXPECT_EQ(ruinsCacheFile(shippedBuilding("first"), 1), one);
+  EXPECT_NE(ruinsCacheFile(shippedBuilding("first"), 2), one);
+  EXPECT_NE(ruinsCacheFile(shippedBuilding("column"), 1), one);
 }
 
 }  // namespace

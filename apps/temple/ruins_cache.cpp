@@ -1,0 +1,54 @@
+#include "apps/temple/ruins_cache.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/version.h"
+#include "apps/temple/building/scene_text.h"
+#include "apps/temple/kept_session.h"
+#include "framework/core/math/fnv.h"
+#include "framework/input/cache.h"
+
+namespace presa::temple {
+
+std::string ruinsCacheFile(const Building& building, std::uint64_t seed) {
+  const std::string folder = input::cacheFolder("ruins");
+  const std::string_view commit = kCommit;
+  if (folder.empty() || commit.empty() || commit.ends_with("-dirty")) return {};
+  Fnv1a hash;
+  hash.add(versionText());
+  hash.addWord(seed);
+  hash.add(sceneText(building, assembled(building)));
+  for (const SceneFile& file : meshFiles(building, true)) hash.add(file.text);
+  char name[32];
+  std::snprintf(name, sizeof name, "%016llx.json", static_cast<unsigned long long>(hash.value()));
+  return (std::filesystem::path(folder) / name).string();
+}
+
+std::optional<std::vector<Pose>> readRuins(const std::string& file, const Building& building) {
+  if (file.empty() || !std::filesystem::exists(file)) return std::nullopt;
+  Diagnostics unused;
+  const std::optional<KeptSession> kept = readKept(file, unused);
+  if (!kept || kept->X_WB.size() != building.blocks.size()) return std::nullopt;
+  return kept->X_WB;
+}
+
+void keepRuins(const std::string& file, const Building& building, std::uint64_t seed, const std::vector<Pose>& X_WB) {
+  if (file.empty()) return;
+  std::error_code failure;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), failure);
+  KeptSession kept;
+  kept.size = building.name;
+  kept.seed = seed;
+  kept.X_WB = X_WB;
+  try {
+    writeFileAtomically(file, keptText(kept));
+  } catch (const std::system_error&) {
+    // the next start strews them again
+  }
+}
+
+}  // namespace presa::temple
