@@ -69,8 +69,10 @@ uniform mat4 key_matrix;
 uniform mat4 sky_matrix;
 uniform vec3 key_direction;
 vec3 daylight(vec3 n, float key, float open);
-// four samples a pixel; a still picture has four pixels for each of its own
-const vec2 kTaps[4] = vec2[](vec2(-0.94, -0.40), vec2(0.35, 0.29), vec2(-0.24, 0.90), vec2(0.54, -0.74));
+// eight samples a pixel; a still picture has four pixels for each of its own
+const vec2 kTaps[8] = vec2[](
+  vec2(-0.942, -0.399), vec2(0.946, -0.769), vec2(-0.094, -0.929), vec2(0.345, 0.294),
+  vec2(-0.814, 0.914), vec2(-0.265, -0.170), vec2(0.975, 0.756), vec2(-0.142, 0.897));
 
 // share of light that arrives; blur [m] is the half width of the penumbra. Samples lie in the surface's own plane, so
 // that a slanted surface does not shade itself.
@@ -81,8 +83,8 @@ float visibility(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float blur) {
   vec3 a = mat3(to_map) * (side * blur), b = mat3(to_map) * (cross(n, side) * blur);
   vec3 u = cos(turn) * a + sin(turn) * b, v = cos(turn) * b - sin(turn) * a;
   float sum = 0.0;
-  for (int i = 0; i < 4; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
-  return sum / 4.0;
+  for (int i = 0; i < 8; ++i) sum += texture(map, c + kTaps[i].x * u + kTaps[i].y * v);
+  return sum / 8.0;
 }
 
 float keyShare(vec3 n, vec3 p) {
