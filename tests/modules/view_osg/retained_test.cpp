@@ -17,8 +17,8 @@ namespace presa::view_test {
 namespace {
 
 using view::Ball;
-using view::changedPixels;
 using view::CameraPose;
+using view::changedPixels;
 using view::Changes;
 using view::cropTo;
 using view::PixelRect;
@@ -77,8 +77,9 @@ TEST(Retained, APictureOfAFilmEqualsTheOneThatIsDrawnAnew) {
 }
 
 TEST(ChangedPixels, ContainThePointsAndALittleMore) {
-  const osg::Matrixd look = osg::Matrixd::lookAt(osg::Vec3d(0, -1, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1)) *
-                            osg::Matrixd::perspective(90, 2, 0.01, 10);  // at distance 1: x from -2 to 2, z from -1 to 1
+  const osg::Matrixd look =
+      osg::Matrixd::lookAt(osg::Vec3d(0, -1, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1)) *
+      osg::Matrixd::perspective(90, 2, 0.01, 10);  // at distance 1: x from -2 to 2, z from -1 to 1
   const PixelRect rect = changedPixels({.all = false, .points = {{-0.5, 0, 0}, {0.5, 0, 0.25}}}, look, 400, 200);
   EXPECT_EQ(rect.x, 150 - 2);
   EXPECT_EQ(rect.width, 100 + 4);
@@ -87,8 +88,8 @@ TEST(ChangedPixels, ContainThePointsAndALittleMore) {
 }
 
 TEST(ChangedPixels, AreThePictureWhereAPointIsNotInFrontOfTheEye) {
-  const osg::Matrixd look =
-      osg::Matrixd::lookAt(osg::Vec3d(0, -1, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1)) * osg::Matrixd::perspective(90, 2, 0.01, 10);
+  const osg::Matrixd look = osg::Matrixd::lookAt(osg::Vec3d(0, -1, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1)) *
+                            osg::Matrixd::perspective(90, 2, 0.01, 10);
   for (const Changes& changes : {Changes{}, Changes{.all = false, .points = {{0, 0, 0}, {0, -2, 0}}}}) {
     const PixelRect rect = changedPixels(changes, look, 400, 200);
     EXPECT_EQ(rect.x, 0);
