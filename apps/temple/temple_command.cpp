@@ -18,6 +18,7 @@
 #include "apps/temple/ruins.h"
 #include "apps/temple/ruins_cache.h"
 #include "apps/temple/visit.h"
+#include "apps/temple/voice.h"
 #include "apps/temple/written_scene.h"
 #include "framework/core/diagnostics/printable.h"
 
@@ -43,7 +44,7 @@ struct Arguments {
   double time_scale = 0;    // simulated seconds per wall-clock second; 0: none
   double attract = 0;       // [s]; 0: never
   bool attracting = false;  // no visitor came during the previous ruins
-  bool no_help = false;
+  bool no_help = false, voice = false;
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
   /// True when the building is to be assembled, rather than only drawn or written.
@@ -76,6 +77,7 @@ PictureOptions pictureOf(const Arguments& a, Diagnostics& diagnostics) {
 
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
   pictureOf(a, diagnostics);
+  if (a.voice) temple::Voice::check(diagnostics);
   if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
     diagnostics.error(
         979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
@@ -211,6 +213,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
                                  .folder = visitFolder(a),
                                  .start = std::move(start),
                                  .language = a.language,
+                                 .voice = a.voice,
                                  .help = !a.no_help};
   if (!a.lockstep) return temple::visit(std::move(loaded), settings);
   terminal::JobProgress progress(building.blocks.size());
@@ -334,6 +337,8 @@ void addTemple(Command app, int& status) {
   command.flag("--no-help", a->no_help,
                "do not help a visitor with a mouse to grasp (the help fades with every block placed; a device that is "
                "felt never gets any)");
+  command.flag("--voice", a->voice,
+               "read the sentences about the blocks aloud, in the language of the texts (espeak-ng)");
   command.flag("--assembled,--no-ruins", a->assembled,
                "every block where it belongs, instead of ruins strewn by a physics drop");
   command.option("--seed", a->seed, "seed of the damage to the stones and of the places where the blocks fell")

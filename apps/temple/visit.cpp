@@ -12,6 +12,8 @@
 #include "apps/temple/shared_finger.h"
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_observer.h"
+#include "apps/temple/voice.h"
+#include "framework/assembly/captions.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/device/device_plugin.h"
 
@@ -40,6 +42,7 @@ class Visit {
     };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
     run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
+    if (settings.voice) voice_.emplace(settings.language);
     if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, world_->scene, settings.language);
   }
 
@@ -78,6 +81,7 @@ class Visit {
     const VisitObserver::Snapshot snapshot = observer_->snapshot();
     if (log_) log_->note(observer_->takeEvents(), snapshot);
     if (log_ && help_level_ != nullptr) log_->note(help_level_->takeNotes());
+    if (voice_) speak(snapshot.now);
     const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
     const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
     if (settings_.attract > 0) takeTurns(snapshot, touched);
@@ -89,6 +93,12 @@ class Visit {
       done_at_ = snapshot.time;
     again_ = done_at_ && attracting_ && snapshot.time > *done_at_ + kShownFinish;
     return !again_ && (settings_.finish < 0 || !done_at_ || snapshot.time < *done_at_ + settings_.finish);
+  }
+
+  // What the screen says about the block in hand, and at the end.
+  void speak(const Guidance& now) {
+    const Captions captions = captionsOf(world_->scene, now);
+    if (now.held || now.finished) voice_->say(now.finished ? captions.finish : captions.sentence);
   }
 
   // The visitor takes over by moving the device or pressing a key or button; the hands take over after a pause.
@@ -138,6 +148,7 @@ class Visit {
   HelpLevel* help_level_ = nullptr;  // owned by the run, with help_
   std::unique_ptr<TerminalRun> run_;
   std::optional<VisitLog> log_;
+  std::optional<Voice> voice_;
   std::optional<double> done_at_;  // [s]
   std::uint32_t undone_ = 0, inputs_ = 0;
   std::vector<SharedFinger*> fingers_;  // owned by the run; empty unless settings_.attract > 0

@@ -19,6 +19,7 @@ struct VisitSettings {
   std::string folder{};     ///< folder for saving (VisitLog); empty: not saved
   KeptSession start{};      ///< initial state
   std::string language{};   ///< language, for the log
+  bool voice = false;       ///< read the sentences about the blocks aloud (Voice)
   bool help = true;         ///< help a visitor with a mouse to grasp (GraspHelp); no effect on devices that are felt
   std::function<bool(int placed, int pieces)> progress = {};  ///< called regularly; return false to stop
 };

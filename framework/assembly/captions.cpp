@@ -21,6 +21,12 @@ std::int32_t goalOf(const Assembly& assembly, std::int32_t body) {
   return found == assembly.goals.end() ? kNoGoal : static_cast<std::int32_t>(found - assembly.goals.begin());
 }
 
+/// A sentence about an element: its first one, and then its stories, one further for each body in its place.
+const std::string& sentenceOf(const AssemblyWords::Element& element, std::int32_t placed) {
+  const std::size_t turn = static_cast<std::size_t>(std::max(placed, 0)) % (element.stories.size() + 1);
+  return turn == 0 ? element.says : element.stories[turn - 1].says;
+}
+
 std::string newsText(const Scene& scene, const GuideEvent& event) {
   const AssemblyWords& words = scene.assembly->words;
   const std::string& phrase = event.kind == Kind::kPlaced   ? words.placed
@@ -66,7 +72,11 @@ Captions captionsOf(const Scene& scene, const Guidance& guidance) {
   const std::int32_t goal = subject == kNoBody ? kNoGoal : goalOf(assembly, subject);
   if (goal != kNoGoal) {
     captions.title = calledBody(scene, subject);
-    if (const AssemblyWords::Element* element = elementOf(assembly, goal)) captions.sentence = element->says;
+    if (const AssemblyWords::Element* element = elementOf(assembly, goal)) {
+      // while the news of a placed body is shown, the sentence stays
+      const std::int32_t told = guidance.placed - (captions.good && guidance.body == kNoBody ? 1 : 0);
+      captions.sentence = sentenceOf(*element, told);
+    }
   }
   if (guidance.blocked != kNoGoal) {
     const AssemblyWords::Element* element = elementOf(assembly, guidance.blocked);

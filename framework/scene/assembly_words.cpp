@@ -70,9 +70,15 @@ AssemblyWords readWords(const xml::Element& element) {
   words.language = element.attribute("language", words.language);
   for (const AssemblyPhrase& phrase : assemblyPhrases())
     words.*phrase.text = element.attribute(phrase.attribute, words.*phrase.text);
-  for (const xml::Element& one : element.children("element"))
-    words.elements.push_back(
-        {one.attribute("name"), one.attribute("called"), one.attribute("says"), one.attribute("waits")});
+  for (const xml::Element& one : element.children("element")) {
+    AssemblyWords::Element& kind = words.elements.emplace_back();
+    kind.name = one.attribute("name");
+    kind.called = one.attribute("called");
+    kind.says = one.attribute("says");
+    kind.waits = one.attribute("waits");
+    for (const xml::Element& story : one.children("story"))
+      kind.stories.push_back({story.attribute("says"), story.attribute("source")});
+  }
   for (const xml::Element& one : element.children("action"))
     words.actions.push_back({one.attribute("name"), one.attribute("keys"), one.attribute("does")});
   return words;

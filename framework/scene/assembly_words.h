@@ -15,6 +15,11 @@ struct AssemblyWords {
     std::string called;  ///< name shown to the user, capitalised
     std::string says;    ///< one sentence about it
     std::string waits;   ///< reason why it cannot be placed yet: "The capital needs its drum first."
+    struct Story {
+      std::string says;    ///< a further sentence
+      std::string source;  ///< where it is written; not shown
+    };
+    std::vector<Story> stories;  ///< told in turn after `says`, one for each body taken
   };
   /// Something that a visitor does with mouse or keys, such as "drag".
   struct Action {

@@ -9,26 +9,15 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <sstream>
 
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/input/on_path.h"
 
 extern char** environ;
 
 namespace presa::view {
 namespace {
-
-bool isOnPath(const char* program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((std::filesystem::path(folder) / program).c_str(), X_OK) == 0) return true;
-  }
-  return false;
-}
 
 /// Writes without raising SIGPIPE, which an ffmpeg that ends early would send to the whole process.
 bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
@@ -52,7 +41,7 @@ bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
 }  // namespace
 
 Video::Video(const std::string& file) : file_(file) {
-  if (!isOnPath("ffmpeg"))
+  if (!input::isOnPath("ffmpeg"))
     refuse(705, "--video", "a video is made by ffmpeg, which is not on the PATH", "install it (Debian: ffmpeg)");
 }
 

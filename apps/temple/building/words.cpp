@@ -91,9 +91,13 @@ std::string wordsText(const AssemblyWords& words) {
   for (const AssemblyPhrase& phrase : assemblyPhrases())
     text += "\n          " + attribute(phrase.attribute, words.*phrase.text);
   text += ">\n";
-  for (const AssemblyWords::Element& element : words.elements)
+  for (const AssemblyWords::Element& element : words.elements) {
     text += "      <element" + attribute("name", element.name) + attribute("called", element.called) +
-            attribute("says", element.says) + attribute("waits", element.waits) + "/>\n";
+            attribute("says", element.says) + attribute("waits", element.waits) + ">\n";
+    for (const AssemblyWords::Element::Story& story : element.stories)
+      text += "        <story" + attribute("says", story.says) + attribute("source", story.source) + "/>\n";
+    text += "      </element>\n";
+  }
   for (const AssemblyWords::Action& action : words.actions)
     text += "      <action" + attribute("name", action.name) + attribute("keys", action.keys) +
             attribute("does", action.does) + "/>\n";

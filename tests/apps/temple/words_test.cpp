@@ -45,6 +45,11 @@ TEST_P(Words, SpeakOfEveryBlockOfTheFacade) {
     EXPECT_FALSE(element.called.empty()) << element.name;
     EXPECT_LT(element.says.size(), 125U) << element.name << ": two lines of the picture at most";
     EXPECT_LT(element.waits.size(), 80U) << element.name << ": one line of the picture";
+    EXPECT_GE(element.stories.size(), 2U) << element.name;
+    for (const AssemblyWords::Element::Story& story : element.stories) {
+      EXPECT_LT(story.says.size(), 125U) << story.says;
+      EXPECT_FALSE(story.source.empty()) << story.says;
+    }
   }
 }
 
@@ -82,6 +87,22 @@ TEST_P(Words, ComeThroughASceneUnchanged) {
     const auto same = std::ranges::find(words.elements, element.name, &AssemblyWords::Element::name);
     EXPECT_EQ(element.says, same->says);
     EXPECT_EQ(element.waits, same->waits);
+    ASSERT_EQ(element.stories.size(), same->stories.size());
+    for (std::size_t i = 0; i < element.stories.size(); ++i) {
+      EXPECT_EQ(element.stories[i].says, same->stories[i].says);
+      EXPECT_EQ(element.stories[i].source, same->stories[i].source);
+    }
+  }
+}
+
+// Every language tells the same stories.
+TEST_P(Words, HaveTheSameSourcesInEachLanguage) {
+  Diagnostics diagnostics;
+  const AssemblyWords english = shippedWords("en", diagnostics), words = shippedWords(GetParam(), diagnostics);
+  for (std::size_t i = 0; i < english.elements.size(); ++i) {
+    ASSERT_EQ(words.elements[i].stories.size(), english.elements[i].stories.size()) << english.elements[i].name;
+    for (std::size_t k = 0; k < english.elements[i].stories.size(); ++k)
+      EXPECT_EQ(words.elements[i].stories[k].source, english.elements[i].stories[k].source);
   }
 }
 

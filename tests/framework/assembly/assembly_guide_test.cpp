@@ -90,6 +90,22 @@ TEST_F(GuideTest, NamesWhatIsTouchedAndForgetsItAfterAWhile) {
   EXPECT_EQ(captions().title, "");
 }
 
+// Each body taken tells the next sentence about its kind; while the news of a placed one is shown, its own stays.
+TEST_F(GuideTest, TellsTheStoriesInTurn) {
+  AssemblyWords::Element& kind = scene_.assembly->words.elements[scene_.assembly->goals[2].element];
+  kind.stories = {{"It is old.", "a book"}, {"It is heavy.", "another"}};
+  Guidance guidance = guide_->now();
+  guidance.body = 2;
+  const std::vector<std::string> in_turn{"It is wide.", "It is old.", "It is heavy.", "It is wide."};
+  for (int placed = 0; placed < 4; ++placed) {
+    guidance.placed = placed;
+    EXPECT_EQ(captionsOf(scene_, guidance).sentence, in_turn[static_cast<std::size_t>(placed)]);
+  }
+  guidance.news = GuideEvent{.kind = Kind::kPlaced, .goal = 2, .body = 2};
+  guidance.body = kNoBody;
+  EXPECT_EQ(captionsOf(scene_, guidance).sentence, "It is heavy.");
+}
+
 TEST_F(GuideTest, SaysWhyABlockHasToWait) {
   hold(2);
   step();
