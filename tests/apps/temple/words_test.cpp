@@ -43,11 +43,11 @@ TEST_P(Words, SpeakOfEveryBlockOfTheFacade) {
   }
   for (const AssemblyWords::Element& element : words.elements) {
     EXPECT_FALSE(element.called.empty()) << element.name;
-    EXPECT_LT(element.says.size(), 125U) << element.name << ": two lines of the picture at most";
+    EXPECT_LT(element.says.size(), 108U) << element.name << ": one line of the panel";
     EXPECT_LT(element.waits.size(), 80U) << element.name << ": one line of the picture";
     EXPECT_GE(element.stories.size(), 2U) << element.name;
     for (const AssemblyWords::Element::Story& story : element.stories) {
-      EXPECT_LT(story.says.size(), 125U) << story.says;
+      EXPECT_LT(story.says.size(), 108U) << story.says << ": one line of the panel";
       EXPECT_FALSE(story.source.empty()) << story.says;
     }
   }

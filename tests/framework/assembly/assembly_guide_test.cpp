@@ -20,8 +20,8 @@ class GuideTest : public testing::Test {
   GuideTest() {
     for (const char* name : {"drum_a", "drum_b", "capital", "ground"}) scene_.bodies.emplace_back().name = name;
     Assembly assembly;
-    assembly.words.elements = {{"drum", "Drum", "It is round.", "A drum needs the one below."},
-                               {"capital", "Capital", "It is wide.", "The capital needs its drum first."}};
+    assembly.words.elements = {{"drum", "Drum", "It is round.", "A drum needs the one below.", {}},
+                               {"capital", "Capital", "It is wide.", "The capital needs its drum first.", {}}};
     assembly.goals = {{.name = "base", .bodies = {0, 1}, .X_WB = at(0, 0.03), .after = {}, .element = 0},
                       {.name = "shaft", .bodies = {0, 1}, .X_WB = at(0, 0.09), .after = {0}, .element = 0},
                       {.name = "head", .bodies = {2}, .X_WB = at(0, 0.14), .after = {1}, .element = 1}};

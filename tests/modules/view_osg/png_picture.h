@@ -1,5 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -14,7 +15,7 @@ namespace presa::view_test {
 inline std::string tempFile(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "presa_view";
   std::filesystem::create_directories(folder);
-  const std::string file = (folder / name).string();
+  const std::string file = (folder / (std::to_string(getpid()) + "_" + name)).string();  // tests run side by side
   std::filesystem::remove(file);
   return file;
 }
