@@ -42,6 +42,7 @@ void ChangeWatch::measureShapes() {
 }
 
 bool ChangeWatch::update(const Frame& frame) {
+  if (changes_.all) changes_.points.clear();  // they say no more, and nobody may take them
   bool moved = updateBodies(frame.X_WB, frame.tolerance);
   std::vector<Vec3> casters, others;
   addCorners(frame.casters, casters);

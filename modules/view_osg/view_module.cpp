@@ -25,8 +25,9 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
       world_(std::move(world)),
       options_(options),
       plugin_parts_(PluginParts::of(world_)) {
-  // Mesa's software renderer would use all cores, including the haptic thread's. Set before any thread starts.
-  if (options_.realtime) setenv("LP_NUM_THREADS", "1", 0);
+  // Mesa's software renderer would use all cores, including the haptic thread's, here or in the process whose run is
+  // shown. Set before any thread starts.
+  if (options_.realtime || windowed() || options_.bus) setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
   if (!options_.video.empty()) video_.emplace(options_.video);
