@@ -81,6 +81,7 @@ Manifest::ModuleRole readRole(const xml::Element& root) {
   role.fingers = root.attribute("fingers") != "false";
   role.snap = root.attribute("snap") != "false";
   role.body_effects = root.attribute("body_effects") != "false";
+  role.joints = root.attribute("joints") != "false";
   for (const xml::Element& wanted : root.children("wanted"))
     role.wanted.push_back(xml::splitWords(wanted.attribute("when")));
   return role;
@@ -184,7 +185,7 @@ void checkSettings(const Manifest& manifest, const xml::Element& root, Diagnosti
 void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
   const bool module = manifest.kind == PluginKind::kModule;
   const std::string who = "the " + std::string(nameOf(manifest.kind)) + " '" + manifest.name + "'";
-  for (const char* word : {"rate", "engine", "fingers", "snap", "body_effects"}) {
+  for (const char* word : {"rate", "engine", "fingers", "snap", "body_effects", "joints"}) {
     if (!module && root.hasAttribute(word))
       diagnostics.error(kAgainstKind, root.where(word), who + " says " + word + "=\"…\"", "only a module does");
   }

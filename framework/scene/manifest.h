@@ -32,8 +32,8 @@ struct Manifest {
     RateGroup rate = RateGroup::kHaptic;
     /// One of several engines: scenes choose it by <dynamics engine>. Empty: no engine.
     std::string engine;
-    /// What an engine supports: fingers, snap constraints of an assembly, body effects.
-    bool fingers = true, snap = true, body_effects = true;
+    /// What an engine supports: fingers, snap constraints of an assembly, body effects, joints.
+    bool fingers = true, snap = true, body_effects = true, joints = true;
     /// Alternatives. Each lists the facts (framework/scene/scene_facts.h) that must hold together. Empty: the module is
     /// needed where one of its elements stands.
     std::vector<std::vector<std::string>> wanted;

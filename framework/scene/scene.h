@@ -10,6 +10,7 @@
 #include "framework/core/math/spatial.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/scene/assembly_words.h"
+#include "framework/scene/joints/joint.h"
 #include "framework/scene/plugin_element.h"
 
 /// A scene as plain data: the user's values with every default filled in. SI units throughout.
@@ -217,6 +218,7 @@ struct Scene {
   DynamicsSettings dynamics;
   std::vector<Material> materials;
   std::vector<Body> bodies;
+  std::vector<Joint> joints;
   std::vector<DeviceRole> devices;
   std::optional<Assembly> assembly;
   std::vector<PluginElement> plugin_elements;  ///< in document order

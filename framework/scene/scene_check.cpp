@@ -6,6 +6,7 @@
 
 #include "framework/core/state/limits.h"
 #include "framework/scene/ages.h"
+#include "framework/scene/joints/joint_parts.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/value_rule.h"
@@ -350,6 +351,7 @@ void checkOrientation(const Element& element, Diagnostics& diagnostics) {
 void checkScene(const Element& root, Diagnostics& diagnostics) {
   SceneCheck(root, diagnostics).run();
   checkAssembly(root, diagnostics);
+  checkJoints(root, diagnostics);
   checkSaneRanges(root, diagnostics);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "framework/scene/joints/joint_parts.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/physics_shapes.h"
 #include "framework/scene/scene_parts.h"
@@ -48,6 +49,7 @@ Scene loadDocument(xml::Document& document, const std::string& directory, const 
   if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing
   resolveScene(document, sceneSchema(), directory);
   scene = readScene(document.root(), document.name(), directory);
+  checkJointLoops(scene, diagnostics);
   scene.resolved_xml = document.text();
   return scene;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "framework/scene/joints/joint_parts.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/value_rule.h"
@@ -289,6 +290,7 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   for (const Element& material : materialElements(root)) scene.materials.push_back(readMaterial(material));
   const IndexByName materials = indexByName(scene.materials);
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, materials, directory));
+  scene.joints = readJoints(root, scene.bodies);
   for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
   for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);
   scene.plugin_elements = readPluginElements(root);

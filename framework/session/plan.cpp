@@ -158,6 +158,10 @@ void checkEngine(const Scene& scene, const Plan& plan, Diagnostics& diagnostics)
                         "<" + element.element + "> is a body effect, which " + planned.plugin + " does not support",
                         "engines that do: " + enginesThat(&Manifest::ModuleRole::body_effects));
     }
+    if (!role.joints && !scene.joints.empty())
+      diagnostics.error(245, scene.joints[0].where,
+                        "the scene has joints, and " + planned.plugin + " does not support them",
+                        "engines that do: " + enginesThat(&Manifest::ModuleRole::joints));
     if (!role.snap && scene.assembly)
       diagnostics.error(409, where,
                         "the scene has an assembly, and " + planned.plugin + " does not support snap constraints",

@@ -1,9 +1,11 @@
 #pragma once
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "framework/core/state/object_state.h"
@@ -27,6 +29,8 @@ class BodySet {
   std::size_t size() const noexcept { return bodies_.size(); }
   /// True for a free body in the dynamics: neither fixed nor frozen nor put.
   bool moves(std::size_t i) const noexcept { return bodies_[i].body != nullptr && !bodies_[i].still; }
+  /// True for a body that the scene fixes.
+  bool isFixed(std::size_t i) const noexcept { return bodies_[i].body == nullptr; }
   bool asleep(std::size_t i) const noexcept { return bodies_[i].asleep; }
   /// True for a body that moves and does not sleep: it takes part in this step.
   bool awake(std::size_t i) const noexcept { return moves(i) && !bodies_[i].asleep; }
@@ -63,6 +67,10 @@ class BodySet {
   double extent(std::size_t i) const noexcept { return bodies_[i].extent; }
   /// Whether the bounding boxes of two physics geometries in W come within `distance` of each other [m].
   bool areNear(std::size_t i, std::size_t j, double distance) const;
+  /// Whether the two bodies collide with each other: joints may hold them together.
+  bool meet(std::size_t i, std::size_t j) const noexcept {
+    return joined_.empty() || !std::ranges::binary_search(joined_, std::pair(std::min(i, j), std::max(i, j)));
+  }
   /// Contacts for which memory is reserved at the start; more allocate once.
   std::size_t contactRoom() const noexcept { return kContactsPerBody * (bodies_.size() + more_shapes_); }
 
@@ -230,7 +238,8 @@ class BodySet {
   DynamicsSettings::Rotation rotation_;
   std::vector<Entry> bodies_;
   std::vector<ShapeEntry> shapes_;
-  std::size_t more_shapes_ = 0;  // beyond one a body
+  std::size_t more_shapes_ = 0;                              // beyond one a body
+  std::vector<std::pair<std::size_t, std::size_t>> joined_;  // that do not collide, sorted; the lower index first
 };
 
 }  // namespace presa::ode

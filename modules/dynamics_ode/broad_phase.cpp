@@ -64,6 +64,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::find(const BodySet& bodies, dou
   for (auto a = bounds_.cbegin(); a != bounds_.cend(); ++a) {
     for (auto b = a + 1; b != bounds_.cend() && b->low[x] <= a->high[x]; ++b) {
       if (!(a->awake || b->awake) || !overlap(*a, *b, y) || !overlap(*a, *b, z)) continue;
+      if (!bodies.meet(a->body, b->body)) continue;
       pairs_.push_back(std::minmax<std::size_t>(a->body, b->body));
     }
   }

@@ -25,8 +25,12 @@ Islands::Island Islands::joined(std::size_t a, std::size_t b) {
 }
 
 void Islands::join(std::size_t a, std::size_t b) {
+  link(a, b);
+  ++islands_[root(a)].contacts;
+}
+
+void Islands::link(std::size_t a, std::size_t b) {
   const auto [low, high] = std::minmax({root(a), root(b)});
-  ++islands_[low].contacts;
   if (low == high) return;
   parent_[high] = low;
   islands_[low].contacts += islands_[high].contacts;

@@ -22,6 +22,8 @@ class Islands {
   Island joined(std::size_t a, std::size_t b);
   /// Adds a contact between two free bodies.
   void join(std::size_t a, std::size_t b);
+  /// Makes one island of two free bodies that a joint holds together.
+  void link(std::size_t a, std::size_t b);
   /// Adds a contact between a free body and something fixed.
   void touch(std::size_t a) { ++islands_[root(a)].contacts; }
   void touchByFinger(std::size_t a);

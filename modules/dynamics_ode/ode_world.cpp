@@ -18,6 +18,8 @@
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/joints/engine_joints.h"
+#include "modules/dynamics_ode/joints/joint_set.h"
 #include "modules/dynamics_ode/owed_impulses.h"
 #include "modules/dynamics_ode/sleep.h"
 #include "modules/dynamics_ode/snap_drive.h"
@@ -71,6 +73,10 @@ struct OdeWorld::Impl {
     } else {
       engine_solvers.emplace(world->scene, engine, bodies, options);
     }
+    if (!world->scene.joints.empty()) {
+      links.emplace(*world);
+      if (!own_solvers) engine_joints.emplace(*world, bodies, engine.world());
+    }
     if (options.method.sleeping) sleep.emplace(bodies);
     if (options.gives_what_is_felt) owed.emplace();
   }
@@ -114,6 +120,8 @@ struct OdeWorld::Impl {
   std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
   std::optional<OwedImpulses> owed;      // empty unless the options ask for it
   std::optional<SnapDrive> snap_drive_;  // empty without an assembly
+  std::optional<JointSet> links;         // the joints of the scene; empty without
+  std::optional<EngineJoints> engine_joints;  // the same, for the engine's solvers
   EffectForces effects;
   std::optional<BodyEffectForces> body_effects;  // empty when the scene has none
   Islands islands;
@@ -149,6 +157,7 @@ void OdeWorld::Impl::findIslands(const ContactExchange& exchange) {
     const std::size_t A = index(contact.A), B = index(contact.B);
     bodies.moves(A) ? islands.join(A, B) : islands.touch(B);
   }
+  if (links) links->link(bodies, islands);
 }
 
 std::int32_t OdeWorld::Impl::islandOf(std::size_t i) {
@@ -199,7 +208,9 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
   if (own_solvers) {
-    own_solvers->solve(contacts, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr, islands, h);
+    if (links) links->read(bodies);
+    own_solvers->solve(contacts, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr, links ? &*links : nullptr,
+                       islands, h);
   } else if (engine_solvers->solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) {
     ++fallback_steps;
   }
@@ -333,7 +344,10 @@ void OdeWorld::makeRoom(const ContactExchange& fingers) {
   impl_->fingers.makeRoom(fingers);
   impl_->impulses.makeRoom(fingers.fingers.size());
   if (impl_->owed) impl_->owed->makeRoom(fingers);
-  if (impl_->own_solvers) impl_->own_solvers->makeRoom(std::max(fingers.fingers.size(), fingers.contacts.capacity()));
+  if (impl_->own_solvers) {
+    impl_->own_solvers->makeRoom(std::max(fingers.fingers.size(), fingers.contacts.capacity()),
+                                 impl_->world->scene.joints.size());
+  }
 }
 
 void OdeWorld::makeRoom(const EffectReactions& reactions) { impl_->effects.makeRoom(reactions.bodies.size()); }

@@ -1,9 +1,11 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "framework/core/math/spatial.h"
+#include "framework/scene/joints/joint.h"
 #include "modules/dynamics_ode/contact_solver/rim.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 
@@ -52,16 +54,26 @@ struct ContactProblem {
     double compliance = 0;  ///< [m/(N s) or rad/(N m s)]
     double max_force = 0;   ///< [N or N m]
   };
+  /// A joint between two bodies of the problem, or of one with something that does not move.
+  struct Joint {
+    std::int32_t A = kFixed, B = kFixed;
+    const presa::Joint* joint = nullptr;
+    JointFrames frames;                           ///< in the axes of A and B, from their centres of mass; fixed: in W
+    std::array<double, presa::Joint::kMaxAxes> position{};  ///< of its axes; angles are continued beyond half a turn
+    Vec3 f_B_W = Vec3::Zero(), m_B_W = Vec3::Zero();  ///< out: on B at the joint [N], [N m]
+  };
   std::vector<Body> bodies;
   std::vector<Contact> contacts;
   std::vector<Finger> fingers;
   std::vector<Motor> motors;
+  std::vector<Joint> joints;
 
   void clear() {
     bodies.clear();
     contacts.clear();
     fingers.clear();
     motors.clear();
+    joints.clear();
   }
 };
 

@@ -94,6 +94,11 @@ Eigen::Matrix2d Roll::stiffnessAt(const Eigen::Vector2d& w, double limit) const 
   return clippedStiffness(-k * w, limit, k);
 }
 
-double Motor::springIn(const Vector& v) const { return k * (goal - axis.dot(v[index(body)])); }
+double velocityIn(const AxisRow& row, const Vector& v) {
+  double u = 0;
+  if (row.B != ContactProblem::kFixed) u += row.J_B.dot(v[index(row.B)]);
+  if (row.A != ContactProblem::kFixed) u += row.J_A.dot(v[index(row.A)]);
+  return u;
+}
 
 }  // namespace presa::ode::newton

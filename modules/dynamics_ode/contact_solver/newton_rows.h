@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/dynamics_ode/contact_solver/axis_row.h"
 #include "modules/dynamics_ode/contact_solver/block_cholesky.h"
 #include "modules/dynamics_ode/contact_solver/contact_problem.h"
 
@@ -59,13 +60,7 @@ struct Roll {
   Eigen::Matrix2d stiffnessAt(const Eigen::Vector2d& w, double limit) const;
 };
 
-/// A motor: impulse k (goal - u), at most limit.
-struct Motor {
-  std::int32_t body;
-  Vec6 axis;
-  double goal = 0, k = 0, limit = 0;
-
-  double springIn(const Vector& v) const;
-};
+/// Velocity that an axis sees.
+double velocityIn(const AxisRow& row, const Vector& v);
 
 }  // namespace presa::ode::newton

@@ -20,6 +20,8 @@ constexpr double kTouches = 1e-3;        // a gap that this closing speed closes
 constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
 constexpr double kMotorSoftness = 1e-8;  // as Options::softness
 constexpr int kSearchSteps = 20;
+constexpr int kAims = 3;           // corrections of the goals of joints between two minimisations
+constexpr double kAimed = 1e-7;    // last of them [m/s, rad/s]
 
 Mat3 cross(const Vec3& r) {
   Mat3 m;
@@ -51,6 +53,9 @@ bool NewtonSolver::analyse(const ContactProblem& problem, std::size_t max_work) 
   for (const ContactProblem::Contact& c : problem.contacts) {
     if (c.A != ContactProblem::kFixed) pairs_.emplace_back(c.A, c.B);
   }
+  for (const ContactProblem::Joint& joint : problem.joints) {
+    if (joint.A != ContactProblem::kFixed && joint.B != ContactProblem::kFixed) pairs_.emplace_back(joint.A, joint.B);
+  }
   return matrix_.analyse(problem.bodies.size(), pairs_, max_work);
 }
 
@@ -73,10 +78,12 @@ void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
 void NewtonSolver::makeRows(const ContactProblem& problem, double h) {
   rows_.clear();
   rolls_.clear();
-  motors_.clear();
+  axes_.clear();
+  locked_.clear();
   for (const ContactProblem::Contact& contact : problem.contacts) addContact(problem, contact, h);
   for (const ContactProblem::Finger& finger : problem.fingers) addFinger(problem, finger, h);
   for (const ContactProblem::Motor& motor : problem.motors) addMotor(problem, motor, h);
+  for (const ContactProblem::Joint& joint : problem.joints) addJoint(problem, joint, h);
 }
 
 void NewtonSolver::addContact(const ContactProblem& problem, const ContactProblem::Contact& c, double h) {
@@ -120,13 +127,24 @@ void NewtonSolver::addFinger(const ContactProblem& problem, const ContactProblem
 
 void NewtonSolver::addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h) {
   const ContactProblem::Body& body = problem.bodies[index(motor.body)];
-  newton::Motor row{motor.body, Vec6::Zero()};
-  row.axis.segment<3>(motor.turns ? 3 : 0) = motor.axis_W;
+  AxisRow row;
+  row.B = motor.body;
+  row.J_B.segment<3>(motor.turns ? 3 : 0) = motor.axis_W;
   const double inertia = motor.turns ? body.inertia_B.trace() / 3 : body.mass;
   row.k = 1 / (kMotorSoftness / inertia + motor.compliance / h);
   row.goal = motor.velocity;
-  row.limit = h * motor.max_force;
-  motors_.push_back(row);
+  row.high = h * motor.max_force;
+  row.low = -row.high;
+  axes_.push_back(row);
+}
+
+void NewtonSolver::addJoint(const ContactProblem& problem, const ContactProblem::Joint& joint, double h) {
+  Locked rows;
+  rows.first = axes_.size();
+  rows.count = appendRows(problem, joint, h, axes_);
+  rows.end = axes_.size();
+  rows.begin = gapOf(joint, centreOf(problem, joint.A), centreOf(problem, joint.B));
+  locked_.push_back(rows);
 }
 
 NewtonSolver::Vec6 NewtonSolver::massTimes(std::size_t body, const Vec6& v) const {
@@ -145,7 +163,7 @@ double NewtonSolver::valueAt(const Vector& v) const {
   for (const newton::Roll& roll : rolls_) {
     value += newton::huber(roll.k * roll.velocityIn(v).norm(), limitOf(roll), roll.k);
   }
-  for (const newton::Motor& row : motors_) value += newton::huber(std::abs(row.springIn(v)), row.limit, row.k);
+  for (const AxisRow& row : axes_) value += row.potentialOf(row.springAt(newton::velocityIn(row, v)));
   return value;
 }
 
@@ -175,12 +193,19 @@ bool NewtonSolver::assemble(newton::Response (*respond)(const Row&, const Vec3&)
     matrix_.add(row.A, row.A, J.transpose() * (K * J));
   }
   for (const newton::Roll& roll : rolls_) assembleRoll(roll);
-  for (const newton::Motor& row : motors_) {
-    const double spring = row.springIn(v_);
-    gradient_[index(row.body)] -= std::clamp(spring, -row.limit, row.limit) * row.axis;
-    if (std::abs(spring) < row.limit) matrix_.add(row.body, row.body, row.k * row.axis * row.axis.transpose());
-  }
+  for (const AxisRow& row : axes_) assembleAxis(row);
   return matrix_.factorise();
+}
+
+void NewtonSolver::assembleAxis(const AxisRow& row) {
+  const double spring = row.springAt(newton::velocityIn(row, v_)), impulse = row.clamped(spring);
+  const bool has_A = row.A != ContactProblem::kFixed, has_B = row.B != ContactProblem::kFixed, gives = row.gives(spring);
+  if (has_B) gradient_[index(row.B)] -= impulse * row.J_B;
+  if (has_A) gradient_[index(row.A)] -= impulse * row.J_A;
+  if (!gives) return;
+  if (has_B) matrix_.add(row.B, row.B, row.k * row.J_B * row.J_B.transpose());
+  if (has_A) matrix_.add(row.A, row.A, row.k * row.J_A * row.J_A.transpose());
+  if (has_A && has_B) matrix_.add(row.A, row.B, row.k * row.J_A * row.J_B.transpose());
 }
 
 void NewtonSolver::assembleRoll(const newton::Roll& roll) {
@@ -239,11 +264,11 @@ double NewtonSolver::slopeAt(double alpha, const Vector& v, const Vector& dv, do
     slope -= roll.impulseAt(w, limitOf(roll)).dot(dw);
     curvature += dw.dot(roll.stiffnessAt(w, limitOf(roll)) * dw);
   }
-  for (const newton::Motor& row : motors_) {
-    const double du = row.axis.dot(dv[index(row.body)]);
-    const double spring = row.k * (row.goal - row.axis.dot(v[index(row.body)]) - alpha * du);
-    slope -= std::clamp(spring, -row.limit, row.limit) * du;
-    if (std::abs(spring) < row.limit) curvature += row.k * du * du;
+  for (const AxisRow& row : axes_) {
+    const double du = newton::velocityIn(row, dv);
+    const double spring = row.k * (row.goal - newton::velocityIn(row, v) - alpha * du);
+    slope -= row.clamped(spring) * du;
+    if (row.gives(spring)) curvature += row.k * du * du;
   }
   return slope;
 }
@@ -263,6 +288,14 @@ double NewtonSolver::lineSearch(const Vector& v, const Vector& dv) const {
   return alpha;
 }
 
+// Joints are so stiff that velocities have no more digits.
+double NewtonSolver::lastStep() const noexcept {
+  if (locked_.empty()) return kConverged;
+  double fastest = 1;
+  for (const Vec6& v : v_) fastest = std::max(fastest, v.lpNorm<Eigen::Infinity>());
+  return kConverged * fastest;
+}
+
 bool NewtonSolver::minimise() {
   const std::size_t affordable = options_.max_products / std::max<std::size_t>(1, matrix_.work());
   const std::size_t iterations = std::clamp(affordable, kMinIterations, options_.max_iterations);
@@ -272,7 +305,7 @@ bool NewtonSolver::minimise() {
     newtonStep();
     double largest = 0;
     for (const Vec6& dv : step_) largest = std::max(largest, dv.lpNorm<Eigen::Infinity>());
-    const bool converged = largest < kConverged;
+    const bool converged = largest < lastStep();
     const double alpha = converged ? 1 : lineSearch(v_, step_);
     for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += alpha * step_[k];
     if (converged) return true;
@@ -315,18 +348,81 @@ void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
   }
 }
 
+// Moves the goals of locked directions by what the joints would miss at the end of the step, as bodies turn and joints
+// with them. Returns the largest change [m/s, rad/s].
+double NewtonSolver::missOf(const ContactProblem& problem, double h) {
+  ends_.resize(problem.bodies.size());
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    const ContactProblem::Body& body = problem.bodies[i];
+    Vec3 w_WB = v_[i].tail<3>();
+    ends_[i] = {body.p_WCm + h * v_[i].head<3>(), body.q_WB};
+    driftRotation(ends_[i].q, w_WB, body.inertia_B, body.inverse_inertia_B, h);
+  }
+  const auto endOf = [&](std::int32_t i) { return i == ContactProblem::kFixed ? Pose() : ends_[index(i)]; };
+  double largest = 0;
+  for (std::size_t j = 0; j < problem.joints.size(); ++j) {
+    const ContactProblem::Joint& joint = problem.joints[j];
+    const Locked& rows = locked_[j];
+    const JointGap end = gapOf(joint, endOf(joint.A), endOf(joint.B));
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      const double wanted = rows.begin.of[i] - closable(rows.begin, i, h);
+      const double change = (wanted - end.of[i]) / h;
+      axes_[rows.first + i].goal += change;
+      largest = std::max(largest, std::abs(change));
+      const AxisRow& row = axes_[rows.first + i];
+      if (row.B != ContactProblem::kFixed) step_[index(row.B)] += row.k * change * row.J_B;
+      if (row.A != ContactProblem::kFixed) step_[index(row.A)] += row.k * change * row.J_A;
+    }
+  }
+  return largest;
+}
+
+bool NewtonSolver::hasBounds() const noexcept {
+  std::size_t locked = 0;
+  for (const Locked& rows : locked_) locked += rows.count;
+  return !rows_.empty() || locked < axes_.size();
+}
+
+// True when the velocities changed so much that contacts and stops have to be looked at again.
+bool NewtonSolver::aimJoints(const ContactProblem& problem, double h) {
+  if (problem.joints.empty()) return false;
+  bool moved = false;
+  for (int i = 0; i < kAims; ++i) {
+    for (Vec6& dv : step_) dv.setZero();
+    if (missOf(problem, h) < kAimed) break;
+    matrix_.solve(step_);
+    for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += step_[k];
+    moved = true;
+  }
+  return moved;
+}
+
+void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
+  for (std::size_t j = 0; j < problem.joints.size(); ++j) {
+    ContactProblem::Joint& joint = problem.joints[j];
+    joint.f_B_W = joint.m_B_W = Vec3::Zero();
+    for (std::size_t i = locked_[j].first; i < locked_[j].end; ++i) {
+      const AxisRow& row = axes_[i];
+      addLoad(row, row.clamped(row.springAt(newton::velocityIn(row, v_))) / h, joint);
+    }
+  }
+}
+
 bool NewtonSolver::solve(ContactProblem& problem, double h) {
   ++counts.solves;
   makeMasses(problem, h);
   makeRows(problem, h);
   bool converged = guess() && minimise();
-  for (int cone = 1; converged && cone < options_.max_cones && standCones() > kConesStand; ++cone) {
+  for (int cone = 1; converged && cone < options_.max_cones; ++cone) {
+    const bool cones_moved = standCones() > kConesStand, joints_moved = aimJoints(problem, h);
+    if (!cones_moved && !(joints_moved && hasBounds())) break;
     converged = minimise();
   }
   if (!converged) {
     ++counts.failures;
     return false;
   }
+  giveBackJoints(problem, h);
   giveBack(problem, h);
   return true;
 }

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/dynamics_ode/contact_solver/joint_rows.h"
 #include "modules/dynamics_ode/contact_solver/newton_rows.h"
 
 namespace presa::ode {
@@ -16,6 +17,9 @@ namespace presa::ode {
 /// the last step, so that nothing creeps, inside a round Coulomb cone. The cone stands on the normal impulse of the
 /// minimisation before. A gap counts as a spring that starts at its end. Rolling resistance is a stiff rotational damper
 /// with a moment of at most a length times that impulse.
+///
+/// Joints (joint_rows.h) act along their directions at the start of the step, and close at its end: SHAKE, symplectic and
+/// of second order with velocities at half steps [Ryckaert1977, Hairer2006]. A pendulum keeps its energy.
 class NewtonSolver {
  public:
   struct Options {
@@ -36,9 +40,12 @@ class NewtonSolver {
 
   /// Reserves memory for rolling resistance of `contacts`.
   void makeRollsRoom(std::size_t contacts) { rolls_.reserve(contacts); }
-  void makeRoom(std::size_t fingers, std::size_t motors) {
+  void makeRoom(std::size_t fingers, std::size_t motors, std::size_t joints) {
     rows_.reserve(pairs_.capacity() + fingers);
-    motors_.reserve(motors);
+    pairs_.reserve(pairs_.capacity() + joints);
+    axes_.reserve(motors + kMaxJointRows * joints);
+    locked_.reserve(joints);
+    ends_.reserve(joints > 0 ? mass_.capacity() : 0);
   }
   /// Takes the pattern of `problem`. False when an iteration would take more than `max_work` products of 6 x 6 blocks,
   /// or the problem has more than BlockCholesky::kMaxCount bodies.
@@ -61,6 +68,13 @@ class NewtonSolver {
   void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
   void addRoll(const ContactProblem& problem, const ContactProblem::Contact& contact, const Mat3& R);
   void addMotor(const ContactProblem& problem, const ContactProblem::Motor& motor, double h);
+  void addJoint(const ContactProblem& problem, const ContactProblem::Joint& joint, double h);
+  /// Whether anything but locked directions of joints acts.
+  bool hasBounds() const noexcept;
+  bool aimJoints(const ContactProblem& problem, double h);
+  double missOf(const ContactProblem& problem, double h);
+  void giveBackJoints(ContactProblem& problem, double h) const;
+  void assembleAxis(const AxisRow& row);
   Vec6 massTimes(std::size_t body, const Vec6& v) const;
   double valueAt(const Vector& v) const;
   double slopeAt(double alpha, const Vector& v, const Vector& dv, double& curvature) const;
@@ -70,6 +84,7 @@ class NewtonSolver {
   void assembleRoll(const newton::Roll& roll);
   double limitOf(const newton::Roll& roll) const { return roll.length * rows_[roll.row].normal; }
   bool guess();
+  double lastStep() const noexcept;
   bool minimise();
   double standCones();
   void giveBack(ContactProblem& problem, double h) const;
@@ -79,7 +94,13 @@ class NewtonSolver {
   std::vector<BlockCholesky::Pair> pairs_;
   std::vector<Row> rows_;            // contacts, then fingers
   std::vector<newton::Roll> rolls_;  // of contacts with rolling resistance
-  std::vector<newton::Motor> motors_;
+  std::vector<AxisRow> axes_;        // motors, then the rows of each joint
+  struct Locked {                    // rows of a joint's locked directions, from `first`, and of its axes, to `end`
+    std::size_t first = 0, count = 0, end = 0;
+    JointGap begin;
+  };
+  std::vector<Locked> locked_;  // as the joints of the problem
+  std::vector<Pose> ends_;      // centres of mass at the end of the step, with joints
   std::vector<double> mass_;
   std::vector<Mat3> inertia_W_;
   Vector free_, v_, gradient_, step_, other_;  // free_: v*

@@ -41,20 +41,22 @@ OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodie
   }
   problem_.bodies.reserve(bodies.size());
   problem_.contacts.reserve(contacts);
-  for (Members* members : {&members_, &contacts_, &fingers_, &motors_}) members->first.reserve(bodies.size() + 2);
+  for (Members* members : {&members_, &contacts_, &fingers_, &motors_, &links_}) members->first.reserve(bodies.size() + 2);
   members_.items.reserve(bodies.size());
   contacts_.items.reserve(contacts);
 }
 
-void OwnSolvers::makeRoom(std::size_t finger_contacts) {
+void OwnSolvers::makeRoom(std::size_t finger_contacts, std::size_t joints) {
   const std::size_t motors = finger_contacts + 6 * bodies_.size();  // six axes of a snap drive
   problem_.fingers.reserve(finger_contacts);
   problem_.motors.reserve(motors);
   all_motors_.reserve(motors);
   fingers_.items.reserve(finger_contacts);
   motors_.items.reserve(motors);
-  newton_.makeRoom(finger_contacts, motors);
-  small_steps_.makeRoom(finger_contacts, motors);
+  problem_.joints.reserve(joints);
+  links_.items.reserve(joints);
+  newton_.makeRoom(finger_contacts, motors, joints);
+  small_steps_.makeRoom(finger_contacts, motors, joints);
 }
 
 // Counting sort; items whose island is `islands` or more belong to none.
@@ -76,7 +78,7 @@ ContactProblem::Body OwnSolvers::bodyOf(std::size_t i) const {
           load.inertia, load.inverse_inertia, load.force_W, load.torque_W};
 }
 
-void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers) {
+void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers, const JointSet* links) {
   problem_.clear();
   for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
     const std::size_t i = members_.items[k];
@@ -98,6 +100,13 @@ void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers) {
   for (std::size_t k = motors_.first[island]; k < motors_.first[island + 1]; ++k) {
     problem_.motors.push_back(all_motors_[motors_.items[k]]);
     problem_.motors.back().body = place_[index(problem_.motors.back().body)];
+  }
+  if (links == nullptr) return;
+  for (std::size_t k = links_.first[island]; k < links_.first[island + 1]; ++k) {
+    const std::size_t i = links_.items[k];
+    const Joint& joint = links->joint(i);
+    const std::int32_t A = joint.to == Joint::kWorld ? ContactProblem::kFixed : place_[joint.to];
+    problem_.joints.push_back(links->problemOf(i, bodies_, A, place_[joint.body]));
   }
 }
 
@@ -170,7 +179,8 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers) {
 }
 
 void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
-                       const std::vector<ContactProblem::Motor>* motors, Islands& islands, double h) {
+                       const std::vector<ContactProblem::Motor>* motors, const JointSet* links, Islands& islands,
+                       double h) {
   joints_.begin(contacts, bodies_, h);
   all_motors_.assign(fingers.motors().begin(), fingers.motors().end());
   if (motors != nullptr) all_motors_.insert(all_motors_.end(), motors->begin(), motors->end());
@@ -180,9 +190,15 @@ void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
   contacts_.sort(joints_.size(), count, [&](std::size_t i) { return of(index(joints_.contact(i).B)); });
   fingers_.sort(fingers.count(), count, [&](std::size_t i) { return of(fingers.body(i)); });
   motors_.sort(all_motors_.size(), count, [&](std::size_t i) { return of(index(all_motors_[i].body)); });
+  if (links != nullptr) {
+    links_.sort(links->size(), count, [&](std::size_t i) {
+      const std::size_t body = links->movingBody(i, bodies_);
+      return body < count ? of(body) : count;
+    });
+  }
   for (std::size_t island = 0; island < count; ++island) {
     if (members_.first[island] == members_.first[island + 1]) continue;
-    gather(island, fingers);
+    gather(island, fingers, links);
     if (bounce_) bounce_->before(problem_, h);
     solveProblem(island, h);
     if (bounce_) bounce_->after(problem_);

@@ -9,6 +9,7 @@
 #include "modules/dynamics_ode/contact_solver/small_steps.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/islands.h"
+#include "modules/dynamics_ode/joints/joint_set.h"
 #include "modules/dynamics_ode/ode_options.h"
 
 namespace presa::ode {
@@ -20,12 +21,12 @@ class OwnSolvers {
  public:
   OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodies, const OdeOptions& options);
 
-  /// Reserves memory for the contacts of fingers and for motors.
-  void makeRoom(std::size_t finger_contacts);
+  /// Reserves memory for the contacts of fingers, for motors and for joints.
+  void makeRoom(std::size_t finger_contacts, std::size_t joints);
   /// Steps all awake bodies over `h` [s]. Reads and writes the forces of `fingers`. `motors` may be null; their bodies
-  /// are indices into the scene.
+  /// are indices into the scene. `links` may be null; its positions have been read.
   void solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
-             const std::vector<ContactProblem::Motor>* motors, Islands& islands, double h);
+             const std::vector<ContactProblem::Motor>* motors, const JointSet* links, Islands& islands, double h);
 
   static constexpr int kMinBackOff = 20, kMaxBackOff = 640;  // steps
   struct Counts {
@@ -40,7 +41,7 @@ class OwnSolvers {
     template <class IslandOf>
     void sort(std::size_t count, std::size_t islands, IslandOf island_of);
   };
-  void gather(std::size_t island, const FingerJoints& fingers);
+  void gather(std::size_t island, const FingerJoints& fingers, const JointSet* links);
   void solveProblem(std::size_t island, double h);
   void giveBack(std::size_t island, FingerJoints& fingers);
   ContactProblem::Body bodyOf(std::size_t i) const;
@@ -58,7 +59,7 @@ class OwnSolvers {
   ContactJoints joints_;
   std::vector<ContactProblem::Motor> all_motors_;
   ContactProblem problem_;
-  Members members_, contacts_, fingers_, motors_;  // by island
+  Members members_, contacts_, fingers_, motors_, links_;  // by island
   std::vector<std::int32_t> place_;                // by body: its index in the problem, kFixed: none
   struct BackOff {
     int steps = 0;           // for which Newton's method is not tried

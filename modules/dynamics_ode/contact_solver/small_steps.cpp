@@ -252,6 +252,7 @@ void SmallSteps::solveMotor(MotorRow& row) {
 
 // Forwards with feedback, backwards without: a load reaches both ends of a stack.
 void SmallSteps::sweep(bool feedback) {
+  joints_.sweep(feedback);
   for (MotorRow& row : motors_) solveMotor(row);
   for (FingerRow& row : fingers_) solveFinger(row);
   if (feedback) {
@@ -368,6 +369,7 @@ void SmallSteps::giveBack(double period) {
     const ContactRow& contact = contacts_[row.contact];
     problem_->contacts[row.contact].m_B_W = (row.impulse.x() * contact.t1.d + row.impulse.y() * contact.t2.d) / h_;
   }
+  joints_.giveBack(h_);
   for (std::size_t i = 0; i < fingers_.size(); ++i) problem_->fingers[i].f_B_W = fingers_[i].sum_W / period;
 }
 
@@ -377,9 +379,14 @@ void SmallSteps::solve(ContactProblem& problem, double period) {
   h_ = period / count;
   prepare();
   soften();
+  joints_.begin();
   for (int step = 0; step < count; ++step) {
     addForces();
     followRims(h_ / 2);
+    if (!problem.joints.empty()) {
+      for (std::size_t i = 0; i < problem.bodies.size(); ++i) turnInertia(i);
+      joints_.beginStep(problem, inverse_inertia_W_, h_);
+    }
     warmStart();
     sweep(true);
     advance();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "modules/dynamics_ode/contact_solver/contact_problem.h"
+#include "modules/dynamics_ode/contact_solver/joint_steps.h"
 
 namespace presa::ode {
 
@@ -37,9 +38,10 @@ class SmallSteps {
   }
   /// Reserves memory for rolling resistance of `contacts`.
   void makeRollsRoom(std::size_t contacts) { rolls_.reserve(contacts); }
-  void makeRoom(std::size_t fingers, std::size_t motors) {
+  void makeRoom(std::size_t fingers, std::size_t motors, std::size_t joints) {
     fingers_.reserve(fingers);
     motors_.reserve(motors);
+    joints_.makeRoom(joints);
   }
 
   void solve(ContactProblem& problem, double period);
@@ -119,6 +121,7 @@ class SmallSteps {
   std::vector<RollRow> rolls_;
   std::vector<FingerRow> fingers_;
   std::vector<MotorRow> motors_;
+  JointSteps joints_;
   std::vector<Mat3> inverse_inertia_W_;
   std::vector<Vec3> begin_;    // centres of mass at the start
   std::vector<char> touched_;  // by body: a finger touches it

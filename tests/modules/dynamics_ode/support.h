@@ -89,6 +89,21 @@ class WorldMaker {
   WorldMaker& box(const Vec3& size, double mass, const Pose& X_WB) {
     return add(Box{size}, X_WB, {mass, Vec3::Zero(), boxInertia(mass, size)});
   }
+  /// A joint of the body added last: at p_BJ, along or about axes given in its frame, to another body or the world.
+  Joint& joint(JointType type, const Vec3& p_BJ, const std::vector<Vec3>& axes, std::size_t to = Joint::kWorld) {
+    Joint joint;
+    joint.name = "joint" + std::to_string(world_.scene.joints.size());
+    joint.type = type;
+    joint.body = world_.scene.bodies.size() - 1;
+    joint.to = to;
+    joint.p_BJ = p_BJ;
+    for (const Vec3& axis : axes) {
+      const bool slides = type == JointType::kSlider || (type == JointType::kPrismaticRotary && joint.axes.empty());
+      joint.axes.emplace_back().dhat_B = axis.normalized();
+      joint.axes.back().turns = !slides;
+    }
+    return world_.scene.joints.emplace_back(joint);
+  }
   /// A table of 2 m by 2 m with its surface at z = 0.
   WorldMaker& table() { return fixedBox({2, 2, 0.1}, {{0, 0, -0.05}, Quat::Identity()}); }
   std::shared_ptr<const World> world() const { return std::make_shared<World>(world_); }

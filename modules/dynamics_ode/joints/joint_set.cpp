@@ -1,0 +1,82 @@
+#include "modules/dynamics_ode/joints/joint_set.h"
+
+#include <cmath>
+
+namespace presa::ode {
+namespace {
+
+double nearest(double angle, double to) { return to + std::remainder(angle - to, 2 * EIGEN_PI); }
+
+}  // namespace
+
+JointSet::JointSet(const World& world) {
+  const Scene& scene = world.scene;
+  for (const Joint& joint : scene.joints) {
+    Link& link = links_.emplace_back();
+    link.joint = &joint;
+    const bool to_world = joint.to == Joint::kWorld;
+    link.X_WB = scene.bodies[joint.body].X_WB;
+    link.X_WA = to_world ? Pose() : scene.bodies[joint.to].X_WB;
+    link.frames = framesOf(joint, link.X_WB, link.X_WA);
+    link.p_BCm = world.inertias[joint.body].p_BCm;
+    if (!to_world) link.p_ACm = world.inertias[joint.to].p_BCm;
+  }
+}
+
+// A fixed body of the scene has no state of its own.
+Pose JointSet::poseNow(std::size_t body, const Pose& start, const BodySet& bodies) {
+  return body == Joint::kWorld || bodies.isFixed(body) ? start : bodies.pose(body);
+}
+
+void JointSet::link(const BodySet& bodies, Islands& islands) const {
+  for (const Link& link : links_) {
+    const std::size_t A = link.joint->to, B = link.joint->body;
+    if (A != Joint::kWorld && bodies.moves(A) && bodies.moves(B)) islands.link(A, B);
+  }
+}
+
+void JointSet::read(const BodySet& bodies) {
+  for (Link& link : links_) {
+    const Joint& joint = *link.joint;
+    const JointPose at = presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies),
+                                       poseNow(joint.to, link.X_WA, bodies));
+    for (std::size_t i = 0; i < joint.axes.size(); ++i) {
+      const double position = positionOf(joint, i, at);
+      link.position[i] = joint.axes[i].turns ? nearest(position, link.position[i]) : position;
+    }
+  }
+}
+
+std::size_t JointSet::movingBody(std::size_t i, const BodySet& bodies) const {
+  const Joint& joint = *links_[i].joint;
+  if (bodies.moves(joint.body)) return joint.body;
+  return joint.to != Joint::kWorld && bodies.moves(joint.to) ? joint.to : bodies.size();
+}
+
+ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const {
+  const Link& link = links_[i];
+  const auto placed = [&](std::int32_t in, std::size_t body, const Pose& start, const Pose& X_J, const Vec3& centre) {
+    if (in == ContactProblem::kFixed) return poseNow(body, start, bodies) * X_J;
+    return Pose{X_J.p - centre, X_J.q};
+  };
+  ContactProblem::Joint joint;
+  joint.A = A;
+  joint.B = B;
+  joint.joint = link.joint;
+  joint.frames.X_AJ = placed(A, link.joint->to, link.X_WA, link.frames.X_AJ, link.p_ACm);
+  joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ, link.p_BCm);
+  joint.position = link.position;
+  return joint;
+}
+
+double JointSet::springEnergy(std::size_t i) const {
+  double energy = 0;
+  const Joint& joint = *links_[i].joint;
+  for (std::size_t k = 0; k < joint.axes.size(); ++k) {
+    const double stretch = links_[i].position[k] - joint.axes[k].rest;
+    energy += joint.axes[k].stiffness * stretch * stretch / 2;
+  }
+  return energy;
+}
+
+}  // namespace presa::ode

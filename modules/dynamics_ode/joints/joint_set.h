@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "framework/scene/world.h"
+#include "modules/dynamics_ode/body_set.h"
+#include "modules/dynamics_ode/contact_solver/contact_problem.h"
+#include "modules/dynamics_ode/islands.h"
+
+namespace presa::ode {
+
+/// The joints of a scene between the bodies of a BodySet: their frames about the centres of mass, and their positions.
+/// Thread: dynamics.
+class JointSet {
+ public:
+  explicit JointSet(const World& world);
+
+  std::size_t size() const noexcept { return links_.size(); }
+  bool empty() const noexcept { return links_.empty(); }
+  /// Joins the islands of bodies that joints hold together.
+  void link(const BodySet& bodies, Islands& islands) const;
+  /// Reads the positions of all joints; angles go on from those read last, beyond half a turn, too.
+  void read(const BodySet& bodies);
+  /// A body that moves of joint i; BodySet::size() if there is none.
+  std::size_t movingBody(std::size_t i, const BodySet& bodies) const;
+  /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
+  ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
+  const Joint& joint(std::size_t i) const { return *links_[i].joint; }
+  /// Energy in the springs of joint i at the positions read last [J].
+  double springEnergy(std::size_t i) const;
+
+ private:
+  struct Link {
+    const Joint* joint = nullptr;
+    JointFrames frames;              // in the frames of the bodies
+    Vec3 p_BCm = Vec3::Zero(), p_ACm = Vec3::Zero();  // centres of mass
+    Pose X_WB, X_WA;                 // at the start
+    std::array<double, Joint::kMaxAxes> position{};
+  };
+  static Pose poseNow(std::size_t body, const Pose& start, const BodySet& bodies);
+
+  std::vector<Link> links_;
+};
+
+}  // namespace presa::ode
