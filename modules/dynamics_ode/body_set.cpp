@@ -54,7 +54,8 @@ BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorld
     createShapes(i, physicsShapes(body, world.meshes[i]));
   }
   for (const Joint& joint : world.scene.joints) {
-    if (!joint.collide && joint.to != Joint::kWorld) joined_.emplace_back(std::min(joint.body, joint.to), std::max(joint.body, joint.to));
+    if (!joint.collide && joint.to != Joint::kWorld)
+      joined_.emplace_back(std::min(joint.body, joint.to), std::max(joint.body, joint.to));
   }
   std::ranges::sort(joined_);
 }

@@ -116,11 +116,11 @@ struct OdeWorld::Impl {
   BodyContacts collider;
   std::optional<OwnSolvers> own_solvers;  // one of these two, as the scene says
   std::optional<StepSolver> engine_solvers;
-  std::optional<Sweep> sweep;            // with Presa's own solvers
-  std::optional<Sleep> sleep;            // empty when the scene turns sleeping off
-  std::optional<OwedImpulses> owed;      // empty unless the options ask for it
-  std::optional<SnapDrive> snap_drive_;  // empty without an assembly
-  std::optional<JointSet> links;         // the joints of the scene; empty without
+  std::optional<Sweep> sweep;                 // with Presa's own solvers
+  std::optional<Sleep> sleep;                 // empty when the scene turns sleeping off
+  std::optional<OwedImpulses> owed;           // empty unless the options ask for it
+  std::optional<SnapDrive> snap_drive_;       // empty without an assembly
+  std::optional<JointSet> links;              // the joints of the scene; empty without
   std::optional<EngineJoints> engine_joints;  // the same, for the engine's solvers
   EffectForces effects;
   std::optional<BodyEffectForces> body_effects;  // empty when the scene has none

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 namespace presa {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 // Rotation about the unit vector `axis` that is the twist of `q`, in (-pi, pi].
 double twistOf(const Quat& q, const Vec3& axis) {
   const double angle = 2 * std::atan2(q.vec().dot(axis), q.w());
-  return std::remainder(angle, 2 * EIGEN_PI);
+  return std::remainder(angle, 2 * std::numbers::pi);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ enum class JointType { kFixed, kHinge, kSlider, kBall, kUniversal, kPrismaticRot
 /// One degree of freedom of a joint. Its position is 0 in the start pose of the scene, and grows as `body` moves along
 /// the axis, or turns about it, against `to`.
 struct JointAxis {
-  Vec3 dhat_B = Vec3::UnitZ();  ///< unit, in the frame of `body` at the start; of a ball: no meaning
-  bool turns = true;            ///< [rad, N m], else [m, N]
+  Vec3 dhat_B = Vec3::UnitZ();         ///< unit, in the frame of `body` at the start; of a ball: no meaning
+  bool turns = true;                   ///< [rad, N m], else [m, N]
   std::optional<double> lower, upper;  ///< of the position; lower <= 0 <= upper
   double stiffness = 0;                ///< of a spring towards `rest` [N/m, N m/rad]
   double rest = 0;                     ///< position at which the spring is relaxed
@@ -58,7 +58,7 @@ JointFrames framesOf(const Joint& joint, const Pose& X_WB, const Pose& X_WA);
 
 /// How J in `body` stands against J in `to`.
 struct JointPose {
-  Vec3 p_J = Vec3::Zero();    ///< displacement, in the axes of J in `to` [m]
+  Vec3 p_J = Vec3::Zero();      ///< displacement, in the axes of J in `to` [m]
   Quat q_J = Quat::Identity();  ///< rotation
 };
 JointPose poseOf(const JointFrames& frames, const Pose& X_WB, const Pose& X_WA);

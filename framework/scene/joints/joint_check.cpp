@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "framework/scene/joints/joint_parts.h"
@@ -13,8 +14,8 @@ using xml::Element;
 
 enum JointCode { kJointName = 203, kJointBodies = 240, kJointAxes = 241, kJointDirection = 242, kJointLimits = 243 };
 
-constexpr double kSquare = 1e-3;    // cosine up to which two axes count as square
-constexpr double kHalfTurn = 180;   // a turning axis has no limits beyond [deg]
+constexpr double kSquare = 1e-3;   // cosine up to which two axes count as square
+constexpr double kHalfTurn = 180;  // a turning axis has no limits beyond [deg]
 
 struct AxisCount {
   std::size_t min = 0, max = 0;
@@ -61,11 +62,10 @@ class JointCheck {
   bool isKnown(const Element& joint, const std::string& attribute) {
     const std::string body = joint.attribute(attribute);
     if (fixed_.contains(body)) return true;
-    diagnostics_.error(kJointBodies, joint.where(attribute),
-                       joint.label() + " names the body " + quote(body) + ", which does not exist" +
-                           didYouMean(body, names_),
-                       attribute == "to" ? "a body of the scene; without 'to' the joint holds to the world"
-                                         : "a body of the scene");
+    diagnostics_.error(
+        kJointBodies, joint.where(attribute),
+        joint.label() + " names the body " + quote(body) + ", which does not exist" + didYouMean(body, names_),
+        attribute == "to" ? "a body of the scene; without 'to' the joint holds to the world" : "a body of the scene");
     return false;
   }
 
@@ -85,10 +85,10 @@ class JointCheck {
       diagnostics_.error(kJointBodies, joint.where("to"), joint.label() + " joins " + quote(body) + " to itself",
                          "two different bodies; without 'to' the joint holds to the world");
     } else if (fixed_[body] && fixed_[to]) {
-      diagnostics_.error(kJointBodies, joint.where("to"),
-                         joint.label() + " joins two fixed bodies, " + quote(body) + " and " + quote(to) +
-                             ": nothing can move",
-                         "a free body in 'body' or in 'to'");
+      diagnostics_.error(
+          kJointBodies, joint.where("to"),
+          joint.label() + " joins two fixed bodies, " + quote(body) + " and " + quote(to) + ": nothing can move",
+          "a free body in 'body' or in 'to'");
     }
   }
 
@@ -105,10 +105,10 @@ class JointCheck {
     for (const std::string name : {"lower", "upper", "rest"}) {
       const std::string wrong = turns ? name : name + "_deg", right = turns ? name + "_deg" : name;
       if (!axis.hasAttribute(wrong)) continue;
-      diagnostics_.error(kJointAxes, axis.where(wrong),
-                         "the axis " + std::string(turns ? "turns" : "slides") + ", so " + quote(wrong) +
-                             " has no meaning",
-                         quote(right) + (turns ? " [degrees]" : " [m]"));
+      diagnostics_.error(
+          kJointAxes, axis.where(wrong),
+          "the axis " + std::string(turns ? "turns" : "slides") + ", so " + quote(wrong) + " has no meaning",
+          quote(right) + (turns ? " [degrees]" : " [m]"));
     }
     if (!axis.hasAttribute("dir")) {
       diagnostics_.error(kJointDirection, axis.where(), axis.label() + " has no 'dir'",
@@ -131,8 +131,9 @@ class JointCheck {
       diagnostics_.error(kJointLimits, axis.where(attribute), what, allowed);
     };
     if (axis.hasAttribute(low) && axis.hasAttribute(high) && lower > upper) {
-      refuse(low, quote(low) + " is above " + quote(high) + ", found " + axis.attribute(low) + " > " +
-                 axis.attribute(high), low + " <= 0 <= " + high);
+      refuse(low,
+             quote(low) + " is above " + quote(high) + ", found " + axis.attribute(low) + " > " + axis.attribute(high),
+             low + " <= 0 <= " + high);
       return;
     }
     const std::string start = "the position is 0 in the start pose";
@@ -160,7 +161,7 @@ class JointCheck {
     const std::vector<double> a = axes[0].numbers("dir"), b = axes[1].numbers("dir");
     const double cosine = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / length(axes[0]) / length(axes[1]);
     if (std::abs(cosine) < kSquare) return;
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / EIGEN_PI;
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
     diagnostics_.error(kJointDirection, axes[1].where("dir"),
                        "the axes of a universal joint stand square to each other, found an angle of " +
                            xml::numberText(std::round(10 * angle) / 10) + " degrees",

@@ -156,8 +156,8 @@ class Loops {
         of.push_back(j);
       }
     }
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
-                                              static_cast<Eigen::Index>(6 * columns.size()));
+    Eigen::MatrixXd J =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(6 * columns.size()));
     for (std::size_t r = 0; r < rows.size(); ++r) {
       Row row = rows[r];
       row.tail<3>() /= reach;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "framework/scene/joints/joint_parts.h"
 
@@ -8,12 +9,12 @@ namespace {
 
 using xml::Element;
 
-constexpr double kDegree = EIGEN_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 JointType typeOf(const Element& joint) {
   const std::string word = joint.attribute("type");
-  for (const JointType type : {JointType::kFixed, JointType::kSlider, JointType::kBall, JointType::kUniversal,
-                               JointType::kPrismaticRotary}) {
+  for (const JointType type :
+       {JointType::kFixed, JointType::kSlider, JointType::kBall, JointType::kUniversal, JointType::kPrismaticRotary}) {
     if (word == nameOf(type)) return type;
   }
   return JointType::kHinge;

@@ -17,8 +17,8 @@ struct AxisRow {
 
   std::int32_t A = ContactProblem::kFixed, B = ContactProblem::kFixed;
   Vec6 J_A = Vec6::Zero(), J_B = Vec6::Zero();
-  double goal = 0, k = 0;                          ///< [m/s, rad/s], [kg, kg m^2]
-  double low = -kUnbounded, high = kUnbounded;     ///< [N s, N m s]
+  double goal = 0, k = 0;                       ///< [m/s, rad/s], [kg, kg m^2]
+  double low = -kUnbounded, high = kUnbounded;  ///< [N s, N m s]
 
   double springAt(double u) const noexcept { return k * (goal - u); }
   double clamped(double spring) const noexcept { return std::clamp(spring, low, high); }

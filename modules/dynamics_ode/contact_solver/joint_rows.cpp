@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "modules/dynamics_ode/index.h"
 
@@ -81,7 +82,8 @@ class RowMaker {
     const Turns turns = lockedTurns(of, at_.q_J);
     const int moves = lockedMoves(of.type);
     for (std::size_t i = 0; i < gap.count; ++i) {
-      AxisRow& row = i < index(moves) ? push(R_WJ_.col(static_cast<int>(i))) : turn(R_WJ_ * turns.about[i - index(moves)]);
+      AxisRow& row =
+          i < index(moves) ? push(R_WJ_.col(static_cast<int>(i))) : turn(R_WJ_ * turns.about[i - index(moves)]);
       row.goal = -closable(gap, i, h_) / h_;
     }
     if (of.type == JointType::kBall) {
@@ -221,7 +223,7 @@ void followPosition(const ContactProblem& problem, ContactProblem::Joint& joint)
   for (std::size_t i = 0; i < axes.size(); ++i) {
     double& position = joint.position[i];
     const double now = positionOf(*joint.joint, i, at);
-    position = axes[i].turns ? position + std::remainder(now - position, 2 * EIGEN_PI) : now;
+    position = axes[i].turns ? position + std::remainder(now - position, 2 * std::numbers::pi) : now;
   }
 }
 

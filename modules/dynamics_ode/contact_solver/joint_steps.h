@@ -31,8 +31,8 @@ class JointSteps {
 
   ContactProblem* problem_ = nullptr;
   std::vector<AxisRow> rows_;
-  std::vector<Step> steps_;            // as rows
-  std::vector<std::size_t> end_;       // by joint: of its rows
+  std::vector<Step> steps_;       // as rows
+  std::vector<std::size_t> end_;  // by joint: of its rows
 };
 
 }  // namespace presa::ode

@@ -20,8 +20,8 @@ constexpr double kTouches = 1e-3;        // a gap that this closing speed closes
 constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
 constexpr double kMotorSoftness = 1e-8;  // as Options::softness
 constexpr int kSearchSteps = 20;
-constexpr int kAims = 3;           // corrections of the goals of joints between two minimisations
-constexpr double kAimed = 1e-7;    // last of them [m/s, rad/s]
+constexpr int kAims = 3;         // corrections of the goals of joints between two minimisations
+constexpr double kAimed = 1e-7;  // last of them [m/s, rad/s]
 
 Mat3 cross(const Vec3& r) {
   Mat3 m;
@@ -199,7 +199,8 @@ bool NewtonSolver::assemble(newton::Response (*respond)(const Row&, const Vec3&)
 
 void NewtonSolver::assembleAxis(const AxisRow& row) {
   const double spring = row.springAt(newton::velocityIn(row, v_)), impulse = row.clamped(spring);
-  const bool has_A = row.A != ContactProblem::kFixed, has_B = row.B != ContactProblem::kFixed, gives = row.gives(spring);
+  const bool has_A = row.A != ContactProblem::kFixed, has_B = row.B != ContactProblem::kFixed,
+             gives = row.gives(spring);
   if (has_B) gradient_[index(row.B)] -= impulse * row.J_B;
   if (has_A) gradient_[index(row.A)] -= impulse * row.J_A;
   if (!gives) return;

@@ -41,7 +41,8 @@ OwnSolvers::OwnSolvers(const Scene& scene, const Vec3& gravity_W, BodySet& bodie
   }
   problem_.bodies.reserve(bodies.size());
   problem_.contacts.reserve(contacts);
-  for (Members* members : {&members_, &contacts_, &fingers_, &motors_, &links_}) members->first.reserve(bodies.size() + 2);
+  for (Members* members : {&members_, &contacts_, &fingers_, &motors_, &links_})
+    members->first.reserve(bodies.size() + 2);
   members_.items.reserve(bodies.size());
   contacts_.items.reserve(contacts);
 }

@@ -60,7 +60,7 @@ class OwnSolvers {
   std::vector<ContactProblem::Motor> all_motors_;
   ContactProblem problem_;
   Members members_, contacts_, fingers_, motors_, links_;  // by island
-  std::vector<std::int32_t> place_;                // by body: its index in the problem, kFixed: none
+  std::vector<std::int32_t> place_;                        // by body: its index in the problem, kFixed: none
   struct BackOff {
     int steps = 0;           // for which Newton's method is not tried
     int next = kMinBackOff;  // steps after the next failure

@@ -1,11 +1,12 @@
 #include "modules/dynamics_ode/joints/joint_set.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace presa::ode {
 namespace {
 
-double nearest(double angle, double to) { return to + std::remainder(angle - to, 2 * EIGEN_PI); }
+double nearest(double angle, double to) { return to + std::remainder(angle - to, 2 * std::numbers::pi); }
 
 }  // namespace
 
@@ -38,8 +39,8 @@ void JointSet::link(const BodySet& bodies, Islands& islands) const {
 void JointSet::read(const BodySet& bodies) {
   for (Link& link : links_) {
     const Joint& joint = *link.joint;
-    const JointPose at = presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies),
-                                       poseNow(joint.to, link.X_WA, bodies));
+    const JointPose at =
+        presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
     for (std::size_t i = 0; i < joint.axes.size(); ++i) {
       const double position = positionOf(joint, i, at);
       link.position[i] = joint.axes[i].turns ? nearest(position, link.position[i]) : position;

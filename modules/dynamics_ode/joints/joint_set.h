@@ -32,9 +32,9 @@ class JointSet {
  private:
   struct Link {
     const Joint* joint = nullptr;
-    JointFrames frames;              // in the frames of the bodies
+    JointFrames frames;                               // in the frames of the bodies
     Vec3 p_BCm = Vec3::Zero(), p_ACm = Vec3::Zero();  // centres of mass
-    Pose X_WB, X_WA;                 // at the start
+    Pose X_WB, X_WA;                                  // at the start
     std::array<double, Joint::kMaxAxes> position{};
   };
   static Pose poseNow(std::size_t body, const Pose& start, const BodySet& bodies);
