@@ -7,7 +7,7 @@
 namespace presa::ode {
 
 void EnergyBook::settle(const BodySet& bodies, Islands& islands, const FingerJoints& fingers,
-                        const std::vector<ContactProblem::Motor>* motors) {
+                        const std::vector<ContactProblem::Motor>* motors, const JointSet* links) {
   std::fill(gain_.begin(), gain_.end(), 0);
   std::fill(unknown_.begin(), unknown_.end(), 0);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -22,6 +22,9 @@ void EnergyBook::settle(const BodySet& bodies, Islands& islands, const FingerJoi
   for (const auto& list : {motors, &fingers.motors()}) {
     if (list == nullptr) continue;
     for (const ContactProblem::Motor& motor : *list) unknown_[islands.of(index(motor.body))] = 1;
+  }
+  for (std::size_t i = 0; links != nullptr && i < links->size(); ++i) {
+    if (const std::size_t body = links->movingBody(i, bodies); body < bodies.size()) unknown_[islands.of(body)] = 1;
   }
   double step = 0;
   for (std::size_t i = 0; i < gain_.size(); ++i) {

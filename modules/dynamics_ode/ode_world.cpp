@@ -218,7 +218,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   if (owed) owed->notePredicted(fingers, h);
   bodies.driftRotations(h);
   if (sweep) sweep->stopShort(bodies, h);
-  energy.settle(bodies, islands, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr);
+  energy.settle(bodies, islands, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr, links ? &*links : nullptr);
   if (const std::size_t frozen = bodies.freezeBroken(); frozen > 0) fault(Faults::kBodyFrozen, frozen);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using xml::Element;
 
-enum JointCode { kJointName = 203, kJointBodies = 240, kJointAxes = 241, kJointDirection = 242, kJointLimits = 243 };
+enum JointCode { kJointName = 203, kJointBodies = 240, kJointAxes = 241, kJointDirection = 242, kJointLimits = 243, kEngineJoint = 246 };
 
 constexpr double kSquare = 1e-3;   // cosine up to which two axes count as square
 constexpr double kHalfTurn = 180;  // a turning axis has no limits beyond [deg]
@@ -174,11 +174,45 @@ class JointCheck {
   std::set<std::string> known_;
 };
 
+/// Whether the scene leaves its joints to the engine's own solver, as a method to compare with.
+bool usesEngineSolver(const Element& root) {
+  for (const Element& dynamics : root.children("dynamics")) {
+    const std::string solver = dynamics.attribute("solver", "auto");
+    if (solver == "direct" || solver == "iterative") return true;
+    if (solver == "auto" && (dynamics.attribute("friction", "isotropic") != "isotropic" ||
+                             dynamics.attribute("rotation", "exact") != "exact"))
+      return true;
+  }
+  return false;
+}
+
+void refuseBeyondEngine(const Element& joint, Diagnostics& diagnostics) {
+  const std::string type = joint.attribute("type");
+  const std::string others =
+      "Presa's own solvers: solver=\"auto\", \"newton\" or \"small_steps\" with the usual friction and rotation";
+  const std::vector<Element> axes = joint.children("axis");
+  if (type == "universal" || type == "prismatic_rotary" || (type == "ball" && !axes.empty()))
+    diagnostics.error(kEngineJoint, joint.where(), "the engine's own solver has no such " + type, others);
+  for (const Element& axis : axes) {
+    for (const char* name : {"stiffness", "damping"}) {
+      if (axis.hasAttribute(name) && axis.number(name, 0) > 0)
+        diagnostics.error(kEngineJoint, axis.where(name), "the engine's own solver has no springs in joints", others);
+    }
+    if (axis.number("friction", 0) > 0 && axis.number("max_force", 0) > 0)
+      diagnostics.error(kEngineJoint, axis.where("friction"),
+                        "the engine's own solver has either friction or a motor in a joint", others);
+  }
+}
+
 }  // namespace
 
 void checkJoints(const Element& root, Diagnostics& diagnostics) {
   JointCheck check(root, diagnostics);
-  for (const Element& joint : root.children("joint")) check.check(joint);
+  const bool of_engine = usesEngineSolver(root);
+  for (const Element& joint : root.children("joint")) {
+    check.check(joint);
+    if (of_engine) refuseBeyondEngine(joint, diagnostics);
+  }
 }
 
 }  // namespace presa

@@ -14,7 +14,7 @@ std::vector<Joint> readJoints(const xml::Element& root, const std::vector<Body>&
 
 /// Checks the <joint>s of a document, one by one. E203 duplicate name; E240 an unknown body, or bodies that it cannot
 /// join; E241 axes or attributes that its type does not have; E242 an axis without direction, or two that do not fit;
-/// E243 limits that contradict each other or the start pose.
+/// E243 limits that contradict each other or the start pose; E246 what the engine's own solver lacks.
 void checkJoints(const xml::Element& root, Diagnostics& diagnostics);
 
 /// Checks joints that close a loop, in the start pose. E244: a loop that cannot move, such as hinges whose axes do not

@@ -269,17 +269,25 @@ void HapticRateModule::take(std::size_t i, const Joined& to) noexcept {
   ++out_.value.taken;
 }
 
-// Groups of held bodies in contact, by their least entry.
+bool HapticRateModule::unite(Entry& a, Entry& b) noexcept {
+  if (a.group == b.group) return false;
+  a.group = b.group = std::min(a.group, b.group);
+  return true;
+}
+
+// Groups of held bodies in contact or joined, by their least entry.
 void HapticRateModule::findGroups() noexcept {
   for (std::size_t e = 0; e < entries_.size(); ++e) entries_[e].group = e;
   for (bool changed = true; changed;) {
     changed = false;
     for (const BodyContact& contact : bodies_->contacts()) {
       Entry *a = find(index(contact.A)), *b = find(index(contact.B));
-      if (a == nullptr || b == nullptr || !isHeld(*a) || !isHeld(*b) || a->group == b->group || !meet(contact))
-        continue;
-      a->group = b->group = std::min(a->group, b->group);
-      changed = true;
+      if (a == nullptr || b == nullptr || !isHeld(*a) || !isHeld(*b) || !meet(contact)) continue;
+      changed = unite(*a, *b) || changed;
+    }
+    for (const Joint& joint : world_->scene.joints) {
+      Entry *a = find(joint.body), *b = joint.to == Joint::kWorld ? nullptr : find(joint.to);
+      if (a != nullptr && b != nullptr && isHeld(*a) && isHeld(*b)) changed = unite(*a, *b) || changed;
     }
   }
   std::fill(groups_.begin(), groups_.end(), Group{});

@@ -85,6 +85,7 @@ class HapticRateModule final : public Module, public PluginHost {
   void touch(std::int32_t body) noexcept;
   std::size_t takeIsland(std::size_t body, const Joined& to) noexcept;
   void take(std::size_t body, const Joined& to) noexcept;
+  static bool unite(Entry& a, Entry& b) noexcept;
   void findGroups() noexcept;
   void growGroups() noexcept;
   void leave(Entry& entry) noexcept;

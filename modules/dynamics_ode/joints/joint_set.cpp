@@ -70,14 +70,4 @@ ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, 
   return joint;
 }
 
-double JointSet::springEnergy(std::size_t i) const {
-  double energy = 0;
-  const Joint& joint = *links_[i].joint;
-  for (std::size_t k = 0; k < joint.axes.size(); ++k) {
-    const double stretch = links_[i].position[k] - joint.axes[k].rest;
-    energy += joint.axes[k].stiffness * stretch * stretch / 2;
-  }
-  return energy;
-}
-
 }  // namespace presa::ode

@@ -26,8 +26,6 @@ class JointSet {
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
   const Joint& joint(std::size_t i) const { return *links_[i].joint; }
-  /// Energy in the springs of joint i at the positions read last [J].
-  double springEnergy(std::size_t i) const;
 
  private:
   struct Link {
