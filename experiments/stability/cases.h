@@ -40,6 +40,18 @@ Case make();
 namespace endurance {
 Case make();
 }
+namespace pendulum {
+Case make();
+}
+namespace hanging_chain {
+Case make();
+}
+namespace chain_lifted {
+Case make();
+}
+namespace drawer_stop {
+Case make();
+}
 namespace mass_ratio {
 Case make();
 }

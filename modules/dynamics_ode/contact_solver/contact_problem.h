@@ -60,7 +60,7 @@ struct ContactProblem {
     const presa::Joint* joint = nullptr;
     JointFrames frames;  ///< in the axes of A and B, from their centres of mass; fixed: in W
     std::array<double, presa::Joint::kMaxAxes> position{};  ///< of its axes; angles are continued beyond half a turn
-    Vec3 f_B_W = Vec3::Zero(), m_B_W = Vec3::Zero();        ///< out: on B at the joint [N], [N m]
+    Vec3 f_B_W = Vec3::Zero(), m_B_W = Vec3::Zero();  ///< on B at the joint [N], [N m]; in: last step; out: this one
   };
   std::vector<Body> bodies;
   std::vector<Contact> contacts;

@@ -4,6 +4,8 @@
 // iteration then suffices for a pile at rest; the factorisation is sparse; nothing depends on the order of contacts.
 #include "modules/dynamics_ode/contact_solver/newton_solver.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -72,6 +74,37 @@ void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
     v_[i] << body.v_WCm, body.w_WB;
     free_[i] << body.v_WCm + h / body.mass * body.force_W,
         body.w_WB + h * (R * (body.inverse_inertia_B * (R.transpose() * body.torque_W)));
+  }
+}
+
+// A joint under tension turns a light body back with a stiffness that a step cannot follow: the lever arm turns while the
+// force keeps its direction. Where h omega > 1 of a free turn, it acts by the trapezoidal rule, as inertia, with the forces
+// of the last step [Tournier2015]; below, all is as without.
+void NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
+  turning_.assign(problem.bodies.size(), Mat3::Zero());
+  const auto add = [&](std::int32_t i, const Vec3& p_WJ, const Vec3& f_W) {
+    if (i == ContactProblem::kFixed) return;
+    const Vec3 r = p_WJ - problem.bodies[index(i)].p_WCm;
+    turning_[index(i)] += f_W.dot(r) * Mat3::Identity() - (f_W * r.transpose() + r * f_W.transpose()) / 2;
+  };
+  for (const ContactProblem::Joint& joint : problem.joints) {
+    const Vec3 p_WJ = centreOf(problem, joint.B) * joint.frames.X_BJ.p;
+    add(joint.B, p_WJ, joint.f_B_W);
+    add(joint.A, p_WJ, -joint.f_B_W);
+  }
+  for (std::size_t i = 0; i < turning_.size(); ++i) {
+    Eigen::SelfAdjointEigenSolver<Mat3> axes;
+    axes.computeDirect(turning_[i]);
+    const Mat3 inertia = inertia_W_[i];
+    bool stiff = false;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 axis = axes.eigenvectors().col(k);
+      const double all = h * h * axes.eigenvalues()[k], own = axis.dot(inertia * axis);  // all / own: (h omega)^2
+      if (!(all > own)) continue;
+      inertia_W_[i] += (all - own) / 4 * axis * axis.transpose();
+      stiff = true;
+    }
+    if (stiff) free_[i].tail<3>() = problem.bodies[i].w_WB + h * inertia_W_[i].ldlt().solve(problem.bodies[i].torque_W);
   }
 }
 
@@ -412,6 +445,7 @@ void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
 bool NewtonSolver::solve(ContactProblem& problem, double h) {
   ++counts.solves;
   makeMasses(problem, h);
+  if (!problem.joints.empty()) stiffenTurns(problem, h);
   makeRows(problem, h);
   bool converged = guess() && minimise();
   for (int cone = 1; converged && cone < options_.max_cones; ++cone) {

@@ -46,6 +46,7 @@ class NewtonSolver {
     axes_.reserve(motors + kMaxJointRows * joints);
     locked_.reserve(joints);
     ends_.reserve(joints > 0 ? mass_.capacity() : 0);
+    turning_.reserve(joints > 0 ? mass_.capacity() : 0);
   }
   /// Takes the pattern of `problem`. False when an iteration would take more than `max_work` products of 6 x 6 blocks,
   /// or the problem has more than BlockCholesky::kMaxCount bodies.
@@ -63,6 +64,7 @@ class NewtonSolver {
   using Row = newton::Row;
 
   void makeMasses(const ContactProblem& problem, double h);
+  void stiffenTurns(const ContactProblem& problem, double h);
   void makeRows(const ContactProblem& problem, double h);
   void addContact(const ContactProblem& problem, const ContactProblem::Contact& contact, double h);
   void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
@@ -103,6 +105,7 @@ class NewtonSolver {
   std::vector<Pose> ends_;      // centres of mass at the end of the step, with joints
   std::vector<double> mass_;
   std::vector<Mat3> inertia_W_;
+  std::vector<Mat3> turning_;  // by body, with joints: stiffness that their forces give its rotation [N m/rad]
   Vector free_, v_, gradient_, step_, other_;  // free_: v*
 };
 

@@ -161,7 +161,7 @@ void OwnSolvers::solveProblem(std::size_t island, double h) {
   small_steps_.solve(problem_, h);
 }
 
-void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers) {
+void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers, JointSet* links) {
   for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
     const std::size_t i = members_.items[k];
     const ContactProblem::Body& body = problem_.bodies[index(place_[i])];
@@ -174,13 +174,16 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers) {
     joint.f_B_W = problem_.contacts[k].f_B_W;
     joint.m_B_W = problem_.contacts[k].m_B_W;
   }
+  for (std::size_t k = 0; k < problem_.joints.size(); ++k) {
+    links->setForce(links_.items[links_.first[island] + k], problem_.joints[k].f_B_W);
+  }
   for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
     fingers.setForce(fingers_.items[fingers_.first[island] + k], problem_.fingers[k].f_B_W);
   }
 }
 
 void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
-                       const std::vector<ContactProblem::Motor>* motors, const JointSet* links, Islands& islands,
+                       const std::vector<ContactProblem::Motor>* motors, JointSet* links, Islands& islands,
                        double h) {
   joints_.begin(contacts, bodies_, h);
   all_motors_.assign(fingers.motors().begin(), fingers.motors().end());
@@ -203,7 +206,7 @@ void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& f
     if (bounce_) bounce_->before(problem_, h);
     solveProblem(island, h);
     if (bounce_) bounce_->after(problem_);
-    giveBack(island, fingers);
+    giveBack(island, fingers, links);
   }
   joints_.end(bodies_);
 }

@@ -26,7 +26,7 @@ class OwnSolvers {
   /// Steps all awake bodies over `h` [s]. Reads and writes the forces of `fingers`. `motors` may be null; their bodies
   /// are indices into the scene. `links` may be null; its positions have been read.
   void solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
-             const std::vector<ContactProblem::Motor>* motors, const JointSet* links, Islands& islands, double h);
+             const std::vector<ContactProblem::Motor>* motors, JointSet* links, Islands& islands, double h);
 
   static constexpr int kMinBackOff = 20, kMaxBackOff = 640;  // steps
   struct Counts {
@@ -43,7 +43,7 @@ class OwnSolvers {
   };
   void gather(std::size_t island, const FingerJoints& fingers, const JointSet* links);
   void solveProblem(std::size_t island, double h);
-  void giveBack(std::size_t island, FingerJoints& fingers);
+  void giveBack(std::size_t island, FingerJoints& fingers, JointSet* links);
   ContactProblem::Body bodyOf(std::size_t i) const;
   bool isRough(std::size_t island) const;
   bool wobbles(double h) const;

@@ -67,6 +67,7 @@ ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, 
   joint.frames.X_AJ = placed(A, link.joint->to, link.X_WA, link.frames.X_AJ, link.p_ACm);
   joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ, link.p_BCm);
   joint.position = link.position;
+  joint.f_B_W = link.f_B_W;
   return joint;
 }
 
