@@ -30,14 +30,15 @@ std::vector<Finding> pull(double speed, double stiffness, const Method& method) 
   const std::size_t drawer = bodyNamed(run.world(), "drawer");
   const double start = run.world().scene.bodies[drawer].X_WB.p.y();
   double beyond = 0, end = 0;
-  run.observe(atEachStep([&](const ObjectState& state) {
+  const StudyRun::Observer body = atEachStep([&](const ObjectState& state) {
     end = start - state.bodies[drawer].X_WB_end.p.y();
     beyond = std::max(beyond, end - kUpper);
-  }));
+  });
   std::vector<Vec3> before(2, Vec3::Zero());
   double step = 0;
   Curve force{"pull of one finger", {}, {}};
   run.observe([&](const HapticSample& sample) {
+    body(sample);
     for (std::size_t f = 0; f < 2; ++f) {
       const Vec3 now = sample.contact.fingers[f].f_H_W;
       if (sample.tick.time > Grip::kMoveBegin) step = std::max(step, (now - before[f]).norm());

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kDuration = 20, kLink = 0.001;  // [s], [kg] as in the scene
 
+Method smallSteps() { return {"small steps", {"dynamics/solver=small_steps"}}; }
+
 std::vector<Finding> hang(double ratio, const Method& method) {
   StudyRun run(specOf("hanging_chain.xml",
                       std::vector<std::string>{"body/weight/physics/mass=" + number(kLink * ratio)} + method,
@@ -44,12 +46,14 @@ Case make() {
   result.oracle = "Rigid links hang still, for every mass ratio.";
   result.scene = "hanging_chain.xml";
   for (const double ratio : {10.0, 100.0, 1000.0, 10'000.0}) {
-    for (const Method& method : {ours(), Method{"small steps", {"dynamics/solver=small_steps"}},
-                                 Method{"direct", {"dynamics/solver=direct"}}, twentyIterations()}) {
+    for (const Method& method :
+         {ours(), smallSteps(), Method{"direct", {"dynamics/solver=direct"}}, twentyIterations()}) {
       Trial trial;
       trial.parameters = {{"mass ratio", "1:" + number(ratio)}};
       trial.method = method.name;
-      if (method.name == twentyIterations().name) trial.expected = Verdict::kUnstable;
+      // sweeps over the rows carry a load by one link each
+      if (method.name == twentyIterations().name || method.name == smallSteps().name)
+        trial.expected = Verdict::kUnstable;
       trial.run = [=] { return hang(ratio, method); };
       trial.quick = method.own();
       result.trials.push_back(std::move(trial));

@@ -65,13 +65,14 @@ int lockedMoves(JointType type) { return type == JointType::kSlider || type == J
 
 class RowMaker {
  public:
-  RowMaker(const Problem& problem, const Problem::Joint& joint, double h, std::vector<AxisRow>& rows)
+  RowMaker(const Problem& problem, const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB, double h,
+           std::vector<AxisRow>& rows)
       : problem_(problem),
         joint_(joint),
         h_(h),
         rows_(rows),
-        X_WA_(centreOf(problem, joint.A)),
-        X_WB_(centreOf(problem, joint.B)),
+        X_WA_(X_WA),
+        X_WB_(X_WB),
         at_(presa::poseOf(joint.frames, X_WB_, X_WA_)),
         R_WJ_((X_WA_.q * joint.frames.X_AJ.q).toRotationMatrix()),
         p_WJ_(X_WB_ * joint.frames.X_BJ.p) {}
@@ -235,8 +236,9 @@ void addLoad(const AxisRow& row, double force, ContactProblem::Joint& joint) {
   (along.isZero() ? joint.m_B_W : joint.f_B_W) += force * (along.isZero() ? about : along);
 }
 
-std::size_t appendRows(const Problem& problem, const Problem::Joint& joint, double h, std::vector<AxisRow>& rows) {
-  return RowMaker(problem, joint, h, rows).make();
+std::size_t appendRows(const Problem& problem, const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB,
+                       double h, std::vector<AxisRow>& rows) {
+  return RowMaker(problem, joint, X_WA, X_WB, h, rows).make();
 }
 
 }  // namespace presa::ode

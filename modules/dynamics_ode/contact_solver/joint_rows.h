@@ -31,10 +31,10 @@ JointGap gapOf(const ContactProblem::Joint& joint, const Pose& X_WA, const Pose&
 /// Pose of the centre of mass of body `i` of the problem, or of W.
 Pose centreOf(const ContactProblem& problem, std::int32_t i);
 
-/// Appends the rows of `joint` for a step of `h` [s]. The goals of locked directions close the gap at the start of the
-/// step, at most at kMaxClosing and kMaxTurning. Returns the number of locked directions.
-std::size_t appendRows(const ContactProblem& problem, const ContactProblem::Joint& joint, double h,
-                       std::vector<AxisRow>& rows);
+/// Appends the rows of `joint` for a step of `h` [s], with A and B at these poses of their centres of mass. The goals of
+/// locked directions close the gap there, at most at kMaxClosing and kMaxTurning. Returns the number of locked directions.
+std::size_t appendRows(const ContactProblem& problem, const ContactProblem::Joint& joint, const Pose& X_WA,
+                       const Pose& X_WB, double h, std::vector<AxisRow>& rows);
 
 /// Takes the positions of the joint's axes from where its bodies are; angles go on from what they were.
 void followPosition(const ContactProblem& problem, ContactProblem::Joint& joint);

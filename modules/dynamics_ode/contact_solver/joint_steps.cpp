@@ -39,7 +39,8 @@ void JointSteps::beginStep(ContactProblem& problem, const std::vector<Mat3>& inv
   end_.clear();
   for (ContactProblem::Joint& joint : problem.joints) {
     followPosition(problem, joint);
-    const std::size_t first = rows_.size(), locked = appendRows(problem, joint, h, rows_);
+    const std::size_t first = rows_.size(), locked = appendRows(problem, joint, centreOf(problem, joint.A),
+                                                                centreOf(problem, joint.B), h, rows_);
     steps_.resize(std::max(steps_.size(), rows_.size()));
     for (std::size_t i = first; i < rows_.size(); ++i) {
       steps_[i].locked = i < first + locked;

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "modules/dynamics_ode/index.h"
@@ -17,13 +18,18 @@ namespace presa::ode {
 namespace {
 
 constexpr double kConverged = 1e-7;      // last step [m/s, rad/s]
+constexpr double kNoGain = 1e-18;        // last step with joints, in relation to the energy
 constexpr double kConesStand = 1e-3;     // last change of a normal impulse, in relation to the largest
 constexpr double kTouches = 1e-3;        // a gap that this closing speed closes within the step touches [m/s]
 constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
 constexpr double kMotorSoftness = 1e-8;  // as Options::softness
 constexpr int kSearchSteps = 20;
-constexpr int kAims = 3;         // corrections of the goals of joints between two minimisations
-constexpr double kAimed = 1e-7;  // last of them [m/s, rad/s]
+constexpr int kAims = 20;         // corrections of the goals of joints between two minimisations
+constexpr double kAimed = 1e-7;   // last of them [m/s, rad/s]
+constexpr double kFree = 4;       // (h omega)^2 of a turn up to which a step follows it
+constexpr double kShrinks = 0.5;  // each in relation to the one before
+constexpr double kTurned = 1e-6;  // the same along the directions at the end [m/s, rad/s]
+constexpr int kTurns = 20;        // minimisations for that
 
 Mat3 cross(const Vec3& r) {
   Mat3 m;
@@ -78,9 +84,10 @@ void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
 }
 
 // A joint under tension turns a light body back with a stiffness that a step cannot follow: the lever arm turns while the
-// force keeps its direction. Where h omega > 1 of a free turn, it acts by the trapezoidal rule, as inertia, with the forces
-// of the last step [Tournier2015]; below, all is as without.
-void NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
+// force keeps its direction. Where h omega > 2 of a free turn the joints of the island act along their directions at the
+// end of the step, which damps such turns. The stiffness, from the forces of the last step, lets this converge
+// [Tournier2015]. Below all is as without. True if so.
+bool NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
   turning_.assign(problem.bodies.size(), Mat3::Zero());
   const auto add = [&](std::int32_t i, const Vec3& p_WJ, const Vec3& f_W) {
     if (i == ContactProblem::kFixed) return;
@@ -92,20 +99,19 @@ void NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
     add(joint.B, p_WJ, joint.f_B_W);
     add(joint.A, p_WJ, -joint.f_B_W);
   }
+  bool any = false;
   for (std::size_t i = 0; i < turning_.size(); ++i) {
     Eigen::SelfAdjointEigenSolver<Mat3> axes;
     axes.computeDirect(turning_[i]);
-    const Mat3 inertia = inertia_W_[i];
-    bool stiff = false;
+    turning_[i].setZero();
     for (int k = 0; k < 3; ++k) {
       const Vec3 axis = axes.eigenvectors().col(k);
-      const double all = h * h * axes.eigenvalues()[k], own = axis.dot(inertia * axis);  // all / own: (h omega)^2
-      if (!(all > own)) continue;
-      inertia_W_[i] += (all - own) / 4 * axis * axis.transpose();
-      stiff = true;
+      const double stiffness = h * h * std::max(0.0, axes.eigenvalues()[k]);
+      any = any || stiffness > kFree * axis.dot(inertia_W_[i] * axis);
+      turning_[i] += stiffness * axis * axis.transpose();
     }
-    if (stiff) free_[i].tail<3>() = problem.bodies[i].w_WB + h * inertia_W_[i].ldlt().solve(problem.bodies[i].torque_W);
   }
+  return any;
 }
 
 void NewtonSolver::makeRows(const ContactProblem& problem, double h) {
@@ -174,9 +180,10 @@ void NewtonSolver::addMotor(const ContactProblem& problem, const ContactProblem:
 void NewtonSolver::addJoint(const ContactProblem& problem, const ContactProblem::Joint& joint, double h) {
   Locked rows;
   rows.first = axes_.size();
-  rows.count = appendRows(problem, joint, h, axes_);
+  const Pose X_WA = centreOf(problem, joint.A), X_WB = centreOf(problem, joint.B);
+  rows.count = appendRows(problem, joint, X_WA, X_WB, h, axes_);
   rows.end = axes_.size();
-  rows.begin = gapOf(joint, centreOf(problem, joint.A), centreOf(problem, joint.B));
+  rows.begin = gapOf(joint, X_WA, X_WB);
   locked_.push_back(rows);
 }
 
@@ -322,12 +329,18 @@ double NewtonSolver::lineSearch(const Vector& v, const Vector& dv) const {
   return alpha;
 }
 
-// Joints are so stiff that velocities have no more digits.
-double NewtonSolver::lastStep() const noexcept {
-  if (locked_.empty()) return kConverged;
-  double fastest = 1;
-  for (const Vec6& v : v_) fastest = std::max(fastest, v.lpNorm<Eigen::Infinity>());
-  return kConverged * fastest;
+// With joints, so stiff that the velocities of light bodies have no more digits, by energy: what the step can still gain
+// against what moves, or would at 1 m/s.
+bool NewtonSolver::arrived() const noexcept {
+  if (locked_.empty()) {
+    return std::ranges::all_of(step_, [](const Vec6& dv) { return dv.lpNorm<Eigen::Infinity>() < kConverged; });
+  }
+  double gain = 0, moves = 0;
+  for (std::size_t i = 0; i < v_.size(); ++i) {
+    gain -= gradient_[i].dot(step_[i]);
+    moves += mass_[i] + massTimes(i, v_[i]).dot(v_[i]);
+  }
+  return gain < kNoGain * moves;
 }
 
 bool NewtonSolver::minimise() {
@@ -337,9 +350,7 @@ bool NewtonSolver::minimise() {
     ++counts.iterations;
     if (!assemble(newton::responseOf)) return false;
     newtonStep();
-    double largest = 0;
-    for (const Vec6& dv : step_) largest = std::max(largest, dv.lpNorm<Eigen::Infinity>());
-    const bool converged = largest < lastStep();
+    const bool converged = arrived();
     const double alpha = converged ? 1 : lineSearch(v_, step_);
     for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += alpha * step_[k];
     if (converged) return true;
@@ -382,8 +393,8 @@ void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
   }
 }
 
-// Moves the goals of locked directions by what the joints would miss at the end of the step, as bodies turn and joints
-// with them. Returns the largest change [m/s, rad/s].
+// What the joints would miss at the end of the step, as bodies turn and joints with them: to be added to the goals of
+// locked directions. Returns the largest [m/s, rad/s].
 double NewtonSolver::missOf(const ContactProblem& problem, double h) {
   ends_.resize(problem.bodies.size());
   for (std::size_t i = 0; i < ends_.size(); ++i) {
@@ -396,19 +407,30 @@ double NewtonSolver::missOf(const ContactProblem& problem, double h) {
   double largest = 0;
   for (std::size_t j = 0; j < problem.joints.size(); ++j) {
     const ContactProblem::Joint& joint = problem.joints[j];
-    const Locked& rows = locked_[j];
+    Locked& rows = locked_[j];
     const JointGap end = gapOf(joint, endOf(joint.A), endOf(joint.B));
     for (std::size_t i = 0; i < rows.count; ++i) {
       const double wanted = rows.begin.of[i] - closable(rows.begin, i, h);
-      const double change = (wanted - end.of[i]) / h;
-      axes_[rows.first + i].goal += change;
-      largest = std::max(largest, std::abs(change));
-      const AxisRow& row = axes_[rows.first + i];
-      if (row.B != ContactProblem::kFixed) step_[index(row.B)] += row.k * change * row.J_B;
-      if (row.A != ContactProblem::kFixed) step_[index(row.A)] += row.k * change * row.J_A;
+      rows.miss[i] = (wanted - end.of[i]) / h;
+      largest = std::max(largest, std::abs(rows.miss[i]));
     }
   }
   return largest;
+}
+
+// With all else as it was in the last minimisation.
+void NewtonSolver::moveGoals() {
+  for (Vec6& dv : step_) dv.setZero();
+  for (const Locked& rows : locked_) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      AxisRow& row = axes_[rows.first + i];
+      row.goal += rows.miss[i];
+      if (row.B != ContactProblem::kFixed) step_[index(row.B)] += row.k * rows.miss[i] * row.J_B;
+      if (row.A != ContactProblem::kFixed) step_[index(row.A)] += row.k * rows.miss[i] * row.J_A;
+    }
+  }
+  matrix_.solve(step_);
+  for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += step_[k];
 }
 
 bool NewtonSolver::hasBounds() const noexcept {
@@ -417,18 +439,56 @@ bool NewtonSolver::hasBounds() const noexcept {
   return !rows_.empty() || locked < axes_.size();
 }
 
-// True when the velocities changed so much that contacts and stops have to be looked at again.
+// Joints act along their directions at the end of the step: the nearest velocities at which they close there. The
+// stiffness holds on to the velocities of the last iteration, so that it is gone when they stand. True until then.
+bool NewtonSolver::turnJoints(const ContactProblem& problem, double h) {
+  const bool first = free_turn_.empty();
+  if (first) {
+    for (const Vec6& v : free_) free_turn_.push_back(v.tail<3>());
+    own_inertia_W_ = inertia_W_;
+    for (std::size_t i = 0; i < turning_.size(); ++i) inertia_W_[i] += turning_[i];
+  }
+  if (missOf(problem, h) < kTurned && !first) return false;
+  for (std::size_t i = 0; i < turning_.size(); ++i) {
+    const Vec3 momentum = own_inertia_W_[i] * free_turn_[i] + turning_[i] * Vec3(v_[i].tail<3>());
+    free_[i].tail<3>() = inertia_W_[i].ldlt().solve(momentum);
+  }
+  const auto endOf = [&](std::int32_t i) { return i == ContactProblem::kFixed ? Pose() : ends_[index(i)]; };
+  for (std::size_t j = 0; j < problem.joints.size(); ++j) {
+    const ContactProblem::Joint& joint = problem.joints[j];
+    const Locked& rows = locked_[j];
+    turned_.clear();
+    appendRows(problem, joint, endOf(joint.A), endOf(joint.B), h, turned_);
+    for (std::size_t i = 0; i < turned_.size(); ++i) {
+      AxisRow& row = axes_[rows.first + i];
+      row.J_A = turned_[i].J_A;
+      row.J_B = turned_[i].J_B;
+      if (i < rows.count) row.goal = newton::velocityIn(row, v_) + rows.miss[i];
+    }
+  }
+  return true;
+}
+
+// True when contacts, stops and joints have to be looked at again. Where corrections along the directions at the start do
+// not shrink, as with light bodies between heavy ones that turn fast, those at the end are taken.
 bool NewtonSolver::aimJoints(const ContactProblem& problem, double h) {
   if (problem.joints.empty()) return false;
+  if (is_stiff_) return turnJoints(problem, h);
   bool moved = false;
+  double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kAims; ++i) {
-    for (Vec6& dv : step_) dv.setZero();
-    if (missOf(problem, h) < kAimed) break;
-    matrix_.solve(step_);
-    for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += step_[k];
+    const double miss = missOf(problem, h);
+    if (miss < kAimed) break;
+    if (!(miss < kShrinks * last)) {
+      if (miss < kTurned) break;
+      is_stiff_ = true;
+      return turnJoints(problem, h);
+    }
+    moveGoals();
     moved = true;
+    last = miss;
   }
-  return moved;
+  return moved && hasBounds();
 }
 
 void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
@@ -445,12 +505,13 @@ void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
 bool NewtonSolver::solve(ContactProblem& problem, double h) {
   ++counts.solves;
   makeMasses(problem, h);
-  if (!problem.joints.empty()) stiffenTurns(problem, h);
+  free_turn_.clear();
+  is_stiff_ = !problem.joints.empty() && stiffenTurns(problem, h);
   makeRows(problem, h);
   bool converged = guess() && minimise();
-  for (int cone = 1; converged && cone < options_.max_cones; ++cone) {
+  for (int cone = 1; converged && cone < options_.max_cones + (is_stiff_ ? kTurns : 0); ++cone) {
     const bool cones_moved = standCones() > kConesStand, joints_moved = aimJoints(problem, h);
-    if (!cones_moved && !(joints_moved && hasBounds())) break;
+    if (!cones_moved && !joints_moved) break;
     converged = minimise();
   }
   if (!converged) {

@@ -46,7 +46,10 @@ class NewtonSolver {
     axes_.reserve(motors + kMaxJointRows * joints);
     locked_.reserve(joints);
     ends_.reserve(joints > 0 ? mass_.capacity() : 0);
-    turning_.reserve(joints > 0 ? mass_.capacity() : 0);
+    if (joints == 0) return;
+    for (std::vector<Mat3>* of : {&turning_, &own_inertia_W_}) of->reserve(mass_.capacity());
+    free_turn_.reserve(mass_.capacity());
+    turned_.reserve(kMaxJointRows);
   }
   /// Takes the pattern of `problem`. False when an iteration would take more than `max_work` products of 6 x 6 blocks,
   /// or the problem has more than BlockCholesky::kMaxCount bodies.
@@ -64,7 +67,7 @@ class NewtonSolver {
   using Row = newton::Row;
 
   void makeMasses(const ContactProblem& problem, double h);
-  void stiffenTurns(const ContactProblem& problem, double h);
+  bool stiffenTurns(const ContactProblem& problem, double h);
   void makeRows(const ContactProblem& problem, double h);
   void addContact(const ContactProblem& problem, const ContactProblem::Contact& contact, double h);
   void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
@@ -75,6 +78,8 @@ class NewtonSolver {
   bool hasBounds() const noexcept;
   bool aimJoints(const ContactProblem& problem, double h);
   double missOf(const ContactProblem& problem, double h);
+  void moveGoals();
+  bool turnJoints(const ContactProblem& problem, double h);
   void giveBackJoints(ContactProblem& problem, double h) const;
   void assembleAxis(const AxisRow& row);
   Vec6 massTimes(std::size_t body, const Vec6& v) const;
@@ -86,7 +91,7 @@ class NewtonSolver {
   void assembleRoll(const newton::Roll& roll);
   double limitOf(const newton::Roll& roll) const { return roll.length * rows_[roll.row].normal; }
   bool guess();
-  double lastStep() const noexcept;
+  bool arrived() const noexcept;
   bool minimise();
   double standCones();
   void giveBack(ContactProblem& problem, double h) const;
@@ -100,12 +105,17 @@ class NewtonSolver {
   struct Locked {                    // rows of a joint's locked directions, from `first`, and of its axes, to `end`
     std::size_t first = 0, count = 0, end = 0;
     JointGap begin;
+    std::array<double, kMaxLocked> miss{};
   };
   std::vector<Locked> locked_;  // as the joints of the problem
   std::vector<Pose> ends_;      // centres of mass at the end of the step, with joints
   std::vector<double> mass_;
   std::vector<Mat3> inertia_W_;
-  std::vector<Mat3> turning_;  // by body, with joints: stiffness that their forces give its rotation [N m/rad]
+  bool is_stiff_ = false;            // joints act along their directions at the end of this step
+  std::vector<Mat3> turning_;        // by body, with joints: h^2 stiffness that their forces give its rotation
+  std::vector<Mat3> own_inertia_W_;  // without that stiffness, in a stiff step
+  std::vector<Vec3> free_turn_;      // the same: angular velocities without any contact
+  std::vector<AxisRow> turned_;      // rows of one joint at the end of the step
   Vector free_, v_, gradient_, step_, other_;  // free_: v*
 };
 
