@@ -221,7 +221,7 @@ TEST(Joint, FreePairKeepsItsMomenta) {
       }
       return sum;
     };
-    runner.step();
+    for (int i = 0; i < 3; ++i) runner.step();  // the velocities at the start contradict the joint
     const auto [p, L] = momenta();
     runner.run(10);
     const auto [p_end, L_end] = momenta();
@@ -381,6 +381,7 @@ TEST(Joint, StepAllocatesNothing) {
   Runner runner(maker.world(), awake());
   runner.bodies.makeRoom(ContactExchange(2));
   std::vector<ReferenceFinger> fingers = pinch(1, 0.05, 0.002, 2000, 0.8);
+  for (ReferenceFinger& finger : fingers) finger.p_WH.z() += 0.025;
   for (int n = 0; n < 10; ++n) runner.step(exchangeOf(fingers, runner));
   for (int n = 0; n < 200; ++n) {
     for (ReferenceFinger& finger : fingers) finger.p_WH.z() += 1e-4;
