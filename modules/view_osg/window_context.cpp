@@ -1,5 +1,6 @@
 #include "modules/view_osg/window_context.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string_view>
@@ -10,9 +11,14 @@ namespace {
 osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, int width, int height, unsigned samples) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
   traits->readDISPLAY();
-  traits->x = traits->y = 40;
-  traits->width = width;
-  traits->height = height;
+  unsigned screen_width = 0, screen_height = 0;
+  if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
+    system->getScreenResolution(*traits, screen_width, screen_height);
+  const WindowPlace place = fitted(width, height, static_cast<int>(screen_width), static_cast<int>(screen_height));
+  traits->x = place.x;
+  traits->y = place.y;
+  traits->width = place.width;
+  traits->height = place.height;
   traits->windowDecoration = true;
   traits->doubleBuffer = true;
   traits->depth = 24;
@@ -43,6 +49,19 @@ std::string whyNoWindow() {
 }
 
 }  // namespace
+
+WindowPlace fitted(int width, int height, int screen_width, int screen_height) {
+  constexpr int kCorner = 40, kTitleBar = 40;
+  WindowPlace place{kCorner, kCorner, width, height};
+  if (screen_width <= 0 || screen_height <= kTitleBar) return place;
+  const double share = std::min(
+      {1.0, static_cast<double>(screen_width) / width, static_cast<double>(screen_height - kTitleBar) / height});
+  place.width = std::max(1, static_cast<int>(share * width));
+  place.height = std::max(1, static_cast<int>(share * height));
+  place.x = std::min(kCorner, screen_width - place.width);
+  place.y = std::min(kCorner, screen_height - place.height);
+  return place;
+}
 
 // The plain window stays open until the multisampled one is: an X server resets when its last client leaves, and drops
 // clients that connect meanwhile.
