@@ -193,6 +193,26 @@ TEST(Check, SaysThatEveryShippedSceneIsGood) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// Another mesh gives other forces: a replay with it would blame the program. The recording holds the SHA-256 of each mesh.
+TEST(Replay, RefusesAMeshThatIsNotTheOneOfTheRun) {
+  const std::string mesh = scratch("touched.obj"), scene = scratch("touched.xml"), file = scratch("touched.h5");
+  const auto copy = std::filesystem::copy_options::overwrite_existing;
+  std::filesystem::copy_file(source("config/meshes/cup.obj"), mesh, copy);
+  std::ofstream(scene) << R"(<scene version="1.0" name="m" rig=")" << source("config/rigs/hover.xml") << R"(">
+    <world gravity="0 0 0"/><materials><material name="m" stiffness="500"/></materials><body name="cup" fixed="true">
+    <haptic><mesh file="touched.obj"/></haptic></body>
+    <devices><device role="thumb"/><device role="index"/></devices></scene>)";
+  const auto run = presa("run " + scene + " --lockstep --for 0.2 --quiet --overwrite --record " + file);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto same = presa("replay " + file + " --verify");
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  std::ofstream(mesh, std::ios::app) << "# a comment changes no force, but the file is another\n";
+  const auto other = presa("replay " + file + " --verify");
+  EXPECT_EQ(other.status, 2) << other.out;
+  EXPECT_NE(other.err.find("error[E679]: the mesh '"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("touched.obj' is not the one of the run: SHA-256 "), std::string::npos) << other.err;
+}
+
 // Ctrl-C in the middle of a real-time grasp: status 130, forces faded to zero in the recording, file complete.
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");
@@ -204,6 +224,7 @@ TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   ASSERT_GT(recording.command.size(), 100u);
   EXPECT_TRUE(recording.complete);
   EXPECT_TRUE(recording.device.back().stop_requested);
+  EXPECT_NE(presa("replay " + file).out.find("stopped by the user at "), std::string::npos);
   for (int f = 0; f < 2; ++f) EXPECT_EQ(recording.command.back().f_H_W[static_cast<std::size_t>(f)].norm(), 0);
 }
 
