@@ -290,6 +290,7 @@ double Session::phaseStart(const std::string& phase) const {
     for (const auto& device : devices_) {
       if (const auto span = firstSpanOf(*intent, device->phaseIntents(), device->phaseTimes())) return span->begin;
     }
+    return std::numeric_limits<double>::infinity();  // such a word is an intent, and no name
   }
   for (const auto& device : devices_) {
     const auto names = device->phases();

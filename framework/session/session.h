@@ -59,7 +59,7 @@ class Session {
   std::optional<std::string> brokenPlugin() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
 
-  /// Start of the first scripted phase with that intent, or else of that name [s]; infinity when no device has one.
+  /// Start of the first scripted phase of that intent, or of that name if no intent is called so [s]; infinity if none.
   double phaseStart(const std::string& phase) const;
 
  private:

@@ -12,10 +12,11 @@
 namespace presa::check {
 namespace {
 
-constexpr int kDirections = 300;    // spread over the sphere, before the refinement
-constexpr int kStarts = 6;          // best ones that are refined
-constexpr double kFinest = 1e-4;    // [rad], the last step of the refinement
-constexpr double kFirstStep = 0.1;  // [rad], about the distance of the spread directions
+constexpr int kDirections = 300;               // spread over the sphere, before the refinement
+constexpr int kStarts = 6;                     // best ones that are refined
+constexpr std::size_t kMostVertices = 20'000;  // of a mesh that is looked at: the test of it is quadratic
+constexpr double kFinest = 1e-4;               // [rad], the last step of the refinement
+constexpr double kFirstStep = 0.1;             // [rad], about the distance of the spread directions
 
 /// A convex shape in the world.
 struct Placed {
@@ -29,7 +30,9 @@ struct Placed {
 };
 
 bool isHollow(const PhysicsShape& shape) {
-  return std::holds_alternative<MeshRef>(*shape.shape) && (shape.mesh == nullptr || !isConvex(*shape.mesh));
+  if (!std::holds_alternative<MeshRef>(*shape.shape)) return false;
+  if (shape.mesh == nullptr || shape.mesh->vertices.size() > kMostVertices) return true;
+  return !isConvex(*shape.mesh);
 }
 
 AxisBox boxOf(const Placed& placed) {
