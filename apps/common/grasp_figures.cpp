@@ -129,7 +129,8 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
 
   GraspFigures figures;
   figures.hold_begin = hold_phase->begin;
-  figures.hold_end = std::min(hold_phase->end, result.simulated_seconds);
+  // what is rendered while a stopped run fades is no grasp any more
+  figures.hold_end = std::min(hold_phase->end, result.stopped_at < 0 ? result.simulated_seconds : result.stopped_at);
   figures.release_begin = release ? release->begin : std::numeric_limits<double>::infinity();
   figures.lifted = spanOf(result, PhaseIntent::kLift).has_value();
   const Samples hold = between(*result.trace, figures.hold_begin, figures.hold_end);

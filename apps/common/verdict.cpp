@@ -42,9 +42,10 @@ std::string turnSentence(const GraspTurn& turn) {
          "upright.";
 }
 
-/// How the fingers slipped when the motion let go; none if it never did.
+/// How the fingers slipped when the motion let go; none if it never came to that.
 std::optional<std::string> slipSentence(const RunResult& result, const GraspFigures& figures) {
-  if (!std::isfinite(figures.release_begin)) return std::nullopt;
+  const double end = result.stopped_at < 0 ? result.simulated_seconds : result.stopped_at;
+  if (!(figures.release_begin < end)) return std::nullopt;
   std::string slips;
   for (const FingerGrasp& finger : figures.fingers) {
     if (!finger.slip) continue;

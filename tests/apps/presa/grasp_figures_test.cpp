@@ -275,6 +275,8 @@ TEST(Verdict, TellsWhenTheUserStopped) {
   grasp.result.interrupted = true;
   EXPECT_NE(detailsOf(grasp.result).find("Stopped by you at 3.200 s; forces faded until 6.000 s."), std::string::npos)
       << detailsOf(grasp.result);
+  EXPECT_EQ(detailsOf(grasp.result).find("release began"), std::string::npos) << "it begins at 4 s";
+  EXPECT_EQ(graspFigures(grasp.result)->hold_end, 3.2);
   EXPECT_EQ(nlohmann::json::parse(summaryJson(grasp.result)).at("stopped_s"), 3.2);
   EXPECT_NE(reportHtml(grasp.result).find("stopped by you"), std::string::npos);
 }
