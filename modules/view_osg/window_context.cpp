@@ -8,13 +8,9 @@
 namespace presa::view {
 namespace {
 
-osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, int width, int height, unsigned samples) {
+osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, const WindowPlace& place, unsigned samples) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
   traits->readDISPLAY();
-  unsigned screen_width = 0, screen_height = 0;
-  if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
-    system->getScreenResolution(*traits, screen_width, screen_height);
-  const WindowPlace place = fitted(width, height, static_cast<int>(screen_width), static_cast<int>(screen_height));
   traits->x = place.x;
   traits->y = place.y;
   traits->width = place.width;
@@ -35,6 +31,16 @@ bool isSoftware(osg::GraphicsContext& window) {
   const std::string_view renderer = name ? name : "";
   window.releaseContext();
   return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
+}
+
+/// On the screen of the environment's display. Call while a window is open on it: see openWindow.
+WindowPlace placeOnScreen(int width, int height) {
+  osg::GraphicsContext::ScreenIdentifier screen;
+  screen.readDISPLAY();
+  unsigned screen_width = 0, screen_height = 0;
+  if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
+    system->getScreenResolution(screen, screen_width, screen_height);
+  return fitted(width, height, static_cast<int>(screen_width), static_cast<int>(screen_height));
 }
 
 std::string whyNoWindow() {
@@ -63,14 +69,22 @@ WindowPlace fitted(int width, int height, int screen_width, int screen_height) {
   return place;
 }
 
-// The plain window stays open until the multisampled one is: an X server resets when its last client leaves, and drops
-// clients that connect meanwhile.
+// A window stays open until the next one is, also while the screen is asked for its size: an X server resets when its
+// last client leaves, and drops clients that connect meanwhile.
 WindowContext openWindow(const std::string& title, int width, int height) {
-  WindowContext plain{createWindow(title, width, height, 0)};
+  const WindowPlace wanted = fitted(width, height, 0, 0);
+  WindowContext plain{createWindow(title, wanted, 0)};
   if (!plain.context) throw std::runtime_error(whyNoWindow());
+  const WindowPlace place = placeOnScreen(width, height);
+  if (place != wanted) {
+    const osg::ref_ptr<osg::GraphicsContext> smaller = createWindow(title, place, 0);
+    if (!smaller) throw std::runtime_error(whyNoWindow());
+    plain.context->close();
+    plain.context = smaller;
+  }
   plain.software = isSoftware(*plain.context);
   if (plain.software) return plain;
-  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, width, height, 4);
+  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, place, 4);
   if (!smooth || !smooth->realize()) return plain;
   plain.context->close();
   return {smooth, false};

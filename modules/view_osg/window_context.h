@@ -12,6 +12,7 @@ struct WindowContext {
 /// Where a window of this size lies on a screen, in pixels.
 struct WindowPlace {
   int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const WindowPlace&) const = default;
 };
 /// The wanted size, or where the screen has less room (for the window and its title bar) the largest of the same shape.
 /// A screen of no size is not known: then the window is as wanted.

@@ -126,6 +126,33 @@ TEST(Mistakes, GetASentenceAndAStatus) {
   }
 }
 
+// Without status and closing text a fault would leave no word but its status.
+TEST(Mistakes, AFaultIsToldInAQuietRun) {
+  const std::string rig = scratch("jump.xml");
+  std::ofstream(scratch("jump.csv")) << "time_s,role,x_m,y_m,z_m\n0,thumb,-0.1,0,0.03\n0,index,0.1,0,0.03\n"
+                                        "0.1,thumb,-0.1,0,0.03\n0.102,thumb,1.5,0,0.03\n2,thumb,1.5,0,0.03\n";
+  std::ofstream(rig) << R"(<rig version="1.0" name="j">
+    <device role="thumb" driver="scripted"><set key="motion" value="jump.csv"/></device>
+    <device role="index" driver="scripted"><set key="motion" value="jump.csv"/></device></rig>)";
+  const auto outcome = test::presa(withFiles("run CUBE --quiet --for 0.5 --view none --rig ") + rig);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.err, testing::StartsWith("presa run: fault at 0.1"));
+  EXPECT_EQ(outcome.out, "");
+}
+
+// A program without its scenes says so at once, and does not fail 830 trials. Copied, it finds no folder experiments.
+TEST(Mistakes, StabilityWithoutItsScenesSaysWhatItNeeds) {
+  const std::filesystem::path folder = scratch("moved");
+  std::filesystem::create_directories(folder / "a/b/c/d/bin");
+  const std::filesystem::path program = folder / "a/b/c/d/bin/presa-stability";
+  std::filesystem::copy_file(PRESA_BINARY_DIR "/bin/presa-stability", program);
+  const auto outcome = test::shell("cd " + folder.string() + "; LD_LIBRARY_PATH=" PRESA_BINARY_DIR "/lib/presa " +
+                                   program.string() + " --quick");
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("error[E615]"));
+  EXPECT_THAT(outcome.err, HasSubstr("set PRESA_EXPERIMENTS to the folder experiments"));
+}
+
 // A run that is refused leaves nothing behind.
 TEST(Mistakes, WriteNothing) {
   const std::string summary = scratch("never.json");
