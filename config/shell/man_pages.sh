@@ -16,10 +16,10 @@ page() {  # WORD…: of one command, and of those below it
   {
     printf '.TH "%s" 1 "" "Presa %s" "Presa"\n' "${name^^}" "$version"
     printf '.SH NAME\n%s \\- %s\n' "$name" "${summary//\\/\\\\}"
-    printf '.SH SYNOPSIS\n.B presa%s\n[OPTIONS]\n' "${*:+ $*}"
+    printf '.SH SYNOPSIS\n%s\n' "$(sed -n 's/^Usage: //p' <<<"$help")"
     printf '.SH DESCRIPTION\n.nf\n'
     # a line that begins with a dot or a quote would be a request of the formatter
-    sed -e '1d' -e 's/\\/\\\\/g' -e 's/-/\\-/g' -e "s/^\\([.']\\)/\\\\\\&\\1/" <<<"$help"
+    sed -e '1d' -e '/^Usage: /d' -e 's/\\/\\\\/g' -e 's/-/\\-/g' -e "s/^\\([.']\\)/\\\\\\&\\1/" <<<"$help"
     printf '.fi\n'
   } >"$file"
   inner=$(commands_in "$help")

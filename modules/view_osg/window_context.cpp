@@ -37,6 +37,7 @@ bool isSoftware(osg::GraphicsContext& window) {
 WindowPlace placeOnScreen(int width, int height) {
   osg::GraphicsContext::ScreenIdentifier screen;
   screen.readDISPLAY();
+  screen.setUndefinedScreenDetailsToDefaultScreen();
   unsigned screen_width = 0, screen_height = 0;
   if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
     system->getScreenResolution(screen, screen_width, screen_height);

@@ -127,10 +127,8 @@ int checkAll(const CheckArguments& arguments) {
 
 void addCheck(Command app, int& status) {
   auto arguments = std::make_shared<CheckArguments>();
-  Command command =
-      app.command("check",
-                  "Read scenes with their rigs and meshes, rigs, motions and experiments, and report everything that\n"
-                  "is wrong with them");
+  Command command = app.command(
+      "check", "Read scenes with their rigs and meshes, rigs, motions and experiments; tell all that is wrong");
   command.option("FILE", arguments->files, "scene, rig, motion or experiment files").required();
   command.option("--rig", arguments->rig, "rig file instead of the one that a scene or an experiment names");
   command.option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
