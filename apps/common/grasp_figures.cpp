@@ -64,13 +64,13 @@ std::optional<double> gripRipple(Samples hold, std::size_t finger, double hold_e
   return (high - low) / (sum / static_cast<double>(count));
 }
 
-std::optional<SlipOnset> firstSlipFrom(const RunResult::ContactPoint& point, std::int32_t body, double loosen_begin) {
+std::optional<SlipOnset> firstSlipFrom(const RunResult::ContactPoint& point, std::int32_t body, double release_begin) {
   // the monitor's list is complete until it is full; beyond that, the one onset that it always keeps is used
   for (const SlipOnset& slip : point.slips) {
-    if (slip.time >= loosen_begin && slip.body == body) return slip;
+    if (slip.time >= release_begin && slip.body == body) return slip;
   }
-  const SlipOnset& kept = point.summary.loosening_slip;
-  if (kept.time >= loosen_begin && kept.body == body) return kept;
+  const SlipOnset& kept = point.summary.release_slip;
+  if (kept.time >= release_begin && kept.body == body) return kept;
   return std::nullopt;
 }
 
@@ -123,14 +123,16 @@ double longestStick(Samples hold, const std::vector<FingerGrasp>& fingers, std::
 }  // namespace
 
 std::optional<GraspFigures> graspFigures(const RunResult& result) {
-  const RunResult::Phase* hold_phase = findPhase(result, "hold");
-  const RunResult::Phase* loosen_phase = findPhase(result, "loosen");
-  if (!result.trace || !hold_phase || !loosen_phase) return std::nullopt;
+  const std::optional<PhaseSpan> hold_phase = spanOf(result, PhaseIntent::kHold);
+  if (!result.trace || !hold_phase) return std::nullopt;
+  const std::optional<PhaseSpan> release = spanOf(result, PhaseIntent::kRelease);
 
   GraspFigures figures;
   figures.hold_begin = hold_phase->begin;
-  figures.hold_end = std::min(hold_phase->end, result.simulated_seconds);
-  figures.loosen_begin = loosen_phase->begin;
+  // what is rendered while a stopped run fades is no grasp any more
+  figures.hold_end = std::min(hold_phase->end, result.stopped_at < 0 ? result.simulated_seconds : result.stopped_at);
+  figures.release_begin = release ? release->begin : std::numeric_limits<double>::infinity();
+  figures.lifted = spanOf(result, PhaseIntent::kLift).has_value();
   const Samples hold = between(*result.trace, figures.hold_begin, figures.hold_end);
   const std::optional<std::size_t> held = graspedObject(result, hold);
   if (!held) return std::nullopt;
@@ -162,7 +164,7 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
     const std::size_t f = finger.contact_point;
     finger.weight_share = fair_share > 0 ? finger.weight_share / fair_share : 0;
     finger.grip_ripple = gripRipple(hold, f, figures.hold_end);
-    finger.slip = firstSlipFrom(result.contact_points[f], object.body, figures.loosen_begin);
+    finger.slip = firstSlipFrom(result.contact_points[f], object.body, figures.release_begin);
     if (finger.slip)
       finger.slip_step = fallBefore(*finger.slip, f, *result.trace, 1 / result.world->scene.rates.dynamics);
   }

@@ -35,12 +35,17 @@ void takeMonitor(const Monitor& monitor, RunResult& result) {
   result.too_many_held = monitor.tooManyHeld();
   result.far_lag = monitor.farLag();
   result.simulated_seconds = monitor.simulatedTime();
+  result.stopped_at = monitor.stoppedAt();
 }
 
-const RunResult::Phase* findPhase(const RunResult& result, const std::string& name) {
-  const auto phase = std::find_if(result.phases.begin(), result.phases.end(),
-                                  [&](const RunResult::Phase& p) { return p.name == name; });
-  return phase == result.phases.end() ? nullptr : &*phase;
+std::optional<PhaseSpan> spanOf(const RunResult& result, PhaseIntent intent) {
+  std::optional<PhaseSpan> span;
+  for (const RunResult::Phase& phase : result.phases) {
+    if (phase.intent == intent && !span) span = PhaseSpan{phase.begin, phase.end};
+    if (phase.intent == intent) span->end = phase.end;
+    if (phase.intent != intent && span) break;
+  }
+  return span;
 }
 
 }  // namespace presa

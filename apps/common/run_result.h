@@ -7,6 +7,7 @@
 
 #include "framework/core/schedule/tick.h"
 #include "framework/core/schedule/timing_stats.h"
+#include "framework/device/phase_intent.h"
 #include "framework/record/monitor/monitor.h"
 #include "framework/scene/world.h"
 
@@ -39,6 +40,7 @@ struct RunResult {
   struct Phase {
     std::string name;
     double begin = 0, end = 0;  ///< [s]
+    PhaseIntent intent = PhaseIntent::kNone;
   };
   struct Fault {
     double time = 0;  ///< simulated [s]
@@ -66,6 +68,7 @@ struct RunResult {
   std::uint64_t seed = 1;
   bool realtime = false;
   bool interrupted = false;  ///< stopped by the user before its end
+  double stopped_at = -1;    ///< begin of the fade of forces after a stop [s]; -1: the run came to its end
   double simulated_seconds = 0;
   double wall_seconds = 0;
   std::vector<std::string> realtime_missing;  ///< refused real-time settings ("SCHED_FIFO 80: not permitted")
@@ -95,7 +98,7 @@ struct RunResult {
 /// `result.world` must be set. Device roles name the contact points.
 void takeMonitor(const Monitor& monitor, RunResult& result);
 
-/// The phase named `name`, or null.
-const RunResult::Phase* findPhase(const RunResult& result, const std::string& name);
+/// The first phases in a row with this intent, or none.
+std::optional<PhaseSpan> spanOf(const RunResult& result, PhaseIntent intent);
 
 }  // namespace presa

@@ -76,6 +76,7 @@ Json contactPoints(const RunResult& result) {
                    {"seconds", {{"none", sum.seconds[0]}, {"stick", sum.seconds[1]}, {"slip", sum.seconds[2]}}},
                    {"max_normal_force_N", sum.max_normal_force},
                    {"mean_normal_force_N", sum.mean_normal_force},
+                   {"max_commanded_force_N", sum.max_commanded_force},
                    {"leaps", sum.leaps},
                    {"pop_through", sum.pop_through},
                    {"first_pop_through_s", timeOrNull(sum.first_pop_through)},
@@ -141,7 +142,7 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
   }
   Json json = {{"object", result.objects[figures.object].name},
                {"hold_s", {figures.hold_begin, figures.hold_end}},
-               {"loosen_s", figures.loosen_begin},
+               {"release_s", finite(figures.release_begin)},
                {"lift_height_m", figures.lift_height},
                {"held_in_stick_s", figures.held_in_stick},
                {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
@@ -169,6 +170,7 @@ std::string summaryJson(const RunResult& result) {
   json["duration_s"] = result.simulated_seconds;
   json["wall_s"] = result.wall_seconds;
   json["interrupted"] = result.interrupted;
+  json["stopped_s"] = timeOrNull(result.stopped_at);
   json["rates"] = rates(result);
   if (result.sharpness) json["window"] = {{"sharpness", *result.sharpness}};
   json["contact_points"] = contactPoints(result);

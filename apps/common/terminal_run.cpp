@@ -57,17 +57,26 @@ class SignalGuard {
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;  // as in the window
 constexpr int kMaxReportedTrips = 6;                  // trips reported by a note each; further ones are counted
 
+std::vector<RunResult::Phase> phasesOf(const Device& device) {
+  const auto names = device.phases();
+  const auto times = device.phaseTimes();
+  const auto intents = device.phaseIntents();
+  std::vector<RunResult::Phase> phases;
+  for (std::size_t p = 0; p < names.size() && p + 1 < times.size(); ++p)
+    phases.push_back({names[p], times[p], times[p + 1], p < intents.size() ? intents[p] : PhaseIntent::kNone});
+  return phases;
+}
+
 /// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
 void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
   RunOptions& options = loaded.options;
   for (const auto& device : loaded.devices) {
-    const auto names = device->phases();
     const auto times = device->phaseTimes();
+    const auto intents = device->phaseIntents();
     if (times.empty()) continue;
-    for (std::size_t p = 0; p < names.size(); ++p) {
-      if (device == loaded.devices.front()) phases.push_back({names[p], times[p], times[p + 1]});
-      if (names[p] == "hold" && options.screenshot_time < 0) options.screenshot_time = (times[p] + times[p + 1]) / 2;
-    }
+    if (device == loaded.devices.front()) phases = phasesOf(*device);
+    const auto hold = firstSpanOf(PhaseIntent::kHold, intents, times);
+    if (hold && options.screenshot_time < 0) options.screenshot_time = (hold->begin + hold->end) / 2;
   }
   if (options.screenshot_time > options.duration) options.screenshot_time = -1;
 }

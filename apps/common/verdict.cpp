@@ -42,14 +42,17 @@ std::string turnSentence(const GraspTurn& turn) {
          "upright.";
 }
 
-std::string slipSentence(const RunResult& result, const GraspFigures& figures) {
+/// How the fingers slipped when the motion let go; none if it never came to that.
+std::optional<std::string> slipSentence(const RunResult& result, const GraspFigures& figures) {
+  const double end = result.stopped_at < 0 ? result.simulated_seconds : result.stopped_at;
+  if (!(figures.release_begin < end)) return std::nullopt;
   std::string slips;
   for (const FingerGrasp& finger : figures.fingers) {
     if (!finger.slip) continue;
     if (!slips.empty()) slips += ", ";
     slips += result.contact_points[finger.contact_point].name + " at " + fixed(finger.slip->normal_force, 3) + " N";
   }
-  if (slips.empty()) return "No slip after the loosening began.";
+  if (slips.empty()) return "No slip after the release began.";
   if (!(figures.slip_limit > 0)) return "Slipped: " + slips + ".";
   return "Slipped: " + slips + "; friction stops carrying the weight at m g / (" +
          std::to_string(figures.fingers.size()) + " μₛ) = " + fixed(figures.slip_limit, 3) + " N.";
@@ -71,9 +74,17 @@ std::optional<std::string> slipStepSentence(const RunResult& result, const Grasp
   return std::nullopt;
 }
 
-std::string lossSentence(const RunResult::Object& object) {
+/// The motion says what its phases are for.
+bool intended(const RunResult& result) {
+  return std::any_of(result.phases.begin(), result.phases.end(),
+                     [](const RunResult::Phase& phase) { return phase.intent != PhaseIntent::kNone; });
+}
+
+/// Only a motion with intents knows whether a loss was wanted.
+std::string lossSentence(const RunResult& result, const RunResult::Object& object) {
   const std::string at = fixed(object.summary.lost_at, 3) + " s";
-  return object.summary.dropped ? "Dropped at " + at + ", before it was to be released." : "Released at " + at + ".";
+  if (object.summary.dropped) return "Dropped at " + at + ", before it was to be released.";
+  return (intended(result) ? "Released at " : "Out of the fingers from ") + at + (intended(result) ? "." : " on.");
 }
 
 // The bound that action and reaction are held to. A force that changes within a dynamics step, as with the steps of an
@@ -126,16 +137,18 @@ Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   const RunResult::Object& object = result.objects[figures.object];
   Verdict verdict;
   verdict.outcome = object.summary.dropped ? Verdict::Outcome::kBad : Verdict::Outcome::kGood;
-  verdict.headline = object.name + " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm, held in stick for " +
-                     fixed(figures.held_in_stick, 2) + " of " + fixed(figures.hold_end - figures.hold_begin, 2) + " s" +
-                     turnWords(figures);
+  verdict.headline = object.name +
+                     (figures.lifted ? " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm," : "") +
+                     " held in stick for " + fixed(figures.held_in_stick, 2) + " of " +
+                     fixed(figures.hold_end - figures.hold_begin, 2) + " s" + turnWords(figures);
   if (verdict.outcome == Verdict::Outcome::kGood && (turned(figures) || buckled(figures)))
     verdict.outcome = Verdict::Outcome::kNeutral;
-  verdict.details = {offsetSentence(figures), slipSentence(result, figures)};
+  verdict.details = {offsetSentence(figures)};
+  if (const auto sentence = slipSentence(result, figures)) verdict.details.push_back(*sentence);
   if (const auto sentence = slipStepSentence(result, figures)) verdict.details.push_back(*sentence);
   if (turned(figures)) verdict.details.push_back(turnSentence(*figures.turn));
   if (buckled(figures)) verdict.details.push_back(buckleSentence(*figures.turn));
-  if (object.summary.lost_at >= 0) verdict.details.push_back(lossSentence(object));
+  if (object.summary.lost_at >= 0) verdict.details.push_back(lossSentence(result, object));
   return verdict;
 }
 
@@ -145,15 +158,26 @@ Verdict plainVerdict(const RunResult& result) {
   for (const RunResult::Object& object : result.objects) {
     if (!object.summary.grasped) continue;
     grasped += (grasped.empty() ? "" : ", ") + object.name;
-    if (object.summary.lost_at >= 0) verdict.details.push_back(object.name + ": " + lossSentence(object));
+    if (object.summary.lost_at >= 0) verdict.details.push_back(object.name + ": " + lossSentence(result, object));
     if (object.summary.dropped) verdict.outcome = Verdict::Outcome::kBad;
   }
   if (grasped.empty()) {
     verdict.headline = result.objects.empty() ? "nothing to grasp in this scene" : "no object was grasped";
   } else {
     verdict.headline = grasped + (verdict.outcome == Verdict::Outcome::kBad ? " grasped and dropped" : " grasped");
+    if (!result.phases.empty() && !intended(result))
+      verdict.details.emplace_back(
+          "The motion does not say what its phases are for: intent=\"hold\" and intent=\"release\" on them give the "
+          "figures of the grasp.");
   }
   return verdict;
+}
+
+/// Rendered forces end with the stop (FingerSummary), those of the device with its fade.
+std::string stopSentence(const RunResult& result) {
+  const double at = result.stopped_at < 0 ? result.simulated_seconds : result.stopped_at;
+  return "Stopped by you at " + fixed(at, 3) + " s" +
+         (result.stopped_at < 0 ? "." : "; forces faded until " + fixed(result.simulated_seconds, 3) + " s.");
 }
 
 }  // namespace
@@ -161,8 +185,7 @@ Verdict plainVerdict(const RunResult& result) {
 Verdict verdictOf(const RunResult& result) {
   const std::optional<GraspFigures> figures = graspFigures(result);
   Verdict verdict = figures ? graspVerdict(result, *figures) : plainVerdict(result);
-  if (result.interrupted)
-    verdict.details.push_back("Stopped by the user at " + fixed(result.simulated_seconds, 3) + " s.");
+  if (result.interrupted || result.stopped_at >= 0) verdict.details.push_back(stopSentence(result));
   if (const auto sentence = impulseSentence(result)) verdict.details.push_back(*sentence);
   for (std::string& sentence : dynamicsSentences(result)) verdict.details.push_back(std::move(sentence));
   verdict.warnings = lossesOf(result);

@@ -23,6 +23,9 @@ int main(int argc, char** argv) {
           "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
           "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
           "  presa cost config/scenes/cube.xml --quick             what accuracy costs in time\n"
-          "  presa COMMAND --help                                  all options of a command"};
+          "  presa COMMAND --help                                  all options of a command\n"
+          "Exit status: 0 done, 1 it did not end well, 2 bad input and nothing was run, 3 no run on the bus, 130 "
+          "Ctrl-C;\n"
+          "docs/exit_status.md has those of every command."};
   return presa::runProgram(argc, argv, program);
 }

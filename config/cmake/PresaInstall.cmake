@@ -10,15 +10,6 @@ foreach(room IN ITEMS core plugin haptics geometry scene device)
   target_link_libraries(presa_room_${room} INTERFACE presa_framework)
   set_target_properties(presa_room_${room} PROPERTIES EXPORT_NAME ${room})
   list(APPEND presa_exported presa_room_${room})
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} framework/${room}/*.h)
-  list(FILTER headers EXCLUDE REGEX "_plugin/|scene/xml/(document_data|schema_compiled|schema_reader).h") # they need libxml2
-  list(APPEND presa_headers ${headers})
-endforeach()
-list(APPEND presa_headers framework/session/module_plugin.h framework/session/view_part.h
-  apps/studies/cost/metric.h apps/studies/cost/trace.h
-  experiments/runner/psychophysics/axis.h experiments/runner/psychophysics/method.h experiments/runner/psychophysics/method_plugin.h)
-foreach(support IN ITEMS alloc_lock_guard body_effect_field drawn_part effect_field friction_track lockstep_run method_run rendered_body)
-  list(APPEND presa_headers tests/support/${support}.h)
 endforeach()
 foreach(header IN LISTS presa_headers)
   cmake_path(GET header PARENT_PATH folder)
@@ -31,13 +22,19 @@ install(TARGETS presa_supervisor RUNTIME DESTINATION ${PRESA_PLUGIN_DIR})
 install(EXPORT PresaExport NAMESPACE Presa:: DESTINATION lib/cmake/Presa)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES config/cmake/PresaConfig.cmake config/cmake/PresaPlugin.cmake ${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake
-  DESTINATION lib/cmake/Presa)
+  ${presa_interface} DESTINATION lib/cmake/Presa)
 
 install(DIRECTORY config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple config/textures
   DESTINATION share/presa/config PATTERN "*.py" EXCLUDE PATTERN "*.tsv" EXCLUDE)
 install(DIRECTORY experiments/ DESTINATION share/presa/experiments FILES_MATCHING
   PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.obj" PATTERN "README.md")
-install(FILES README.md CHANGELOG.md LICENSE docs/plugins.md DESTINATION share/doc/presa)
+install(FILES README.md CHANGELOG.md LICENSE docs/exit_status.md docs/plugins.md DESTINATION share/doc/presa)
+
+# bash looks for completions of a program in the share folder beside its bin
+install(FILES config/shell/presa.bash DESTINATION share/bash-completion/completions RENAME presa)
+# the pages say what the installed program says of itself
+install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/config/shell/man_pages.sh\" \"${PROJECT_BINARY_DIR}/bin/presa\"
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1\" ${PROJECT_VERSION} COMMAND_ERROR_IS_FATAL ANY)")
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME presa)

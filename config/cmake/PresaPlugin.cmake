@@ -1,5 +1,13 @@
 # Plug-ins, in Presa's tree or in a project of their own that says find_package(Presa): a folder builds the same in both.
+if(NOT PRESA_INTERFACE) # installed beside this file
+  set(PRESA_INTERFACE ${CMAKE_CURRENT_LIST_DIR}/plugin_interface.cpp)
+endif()
 set(PRESA_PLUGIN_DIR lib/presa) # below the prefix; plug-ins, their manifests, and the libraries that only Presa uses
+
+# presa_interface_of(TARGET): puts the hash of the headers that this shared object is compiled against into it. Without it, it is refused.
+function(presa_interface_of target)
+  target_sources(${target} PRIVATE ${PRESA_INTERFACE})
+endfunction()
 
 # presa_plugin(NAME SOURCES a.cpp … LIBRARIES … ALONE …): the shared object presa_NAME.so, loaded only when a scene calls for it,
 # and beside it presa_NAME.xml, the folder's manifest.xml, if it has one, with the version of the project. ALONE: see presa_unity in PresaTargets.cmake.
@@ -16,6 +24,7 @@ function(presa_plugin name)
   if(COMMAND presa_unity)
     presa_unity(presa_${name} ALONE ${ARG_ALONE})
   endif()
+  presa_interface_of(presa_${name})
   install(TARGETS presa_${name} DESTINATION ${PRESA_PLUGIN_DIR})
 endfunction()
 

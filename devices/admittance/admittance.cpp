@@ -31,6 +31,7 @@ class AdmittanceDevice final : public Device {
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
+  std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
   std::string model() const override { return "simulated admittance device, scripted fingers: no device, no person"; }
   /// The damping of an impedance device with the same max wall stiffness.
   double damping() const override { return damping_; }

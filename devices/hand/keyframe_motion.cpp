@@ -17,6 +17,7 @@ struct Keyframe {
   Vec3 force = Vec3::Zero();
   Quat q_WT = Quat::Identity();
   std::string phase;
+  PhaseIntent intent = PhaseIntent::kNone;
 };
 
 class KeyframeMotion final : public Motion {
@@ -26,6 +27,7 @@ class KeyframeMotion final : public Motion {
     for (const Keyframe& frame : frames_) {
       if (frame.phase.empty() || (!phase_names.empty() && phase_names.back() == frame.phase)) continue;
       phase_names.push_back(frame.phase);
+      phase_intents.push_back(frame.intent);
       phase_times.push_back(frame.time);
     }
     if (!phase_names.empty()) phase_times.push_back(frames_.back().time);
@@ -130,14 +132,14 @@ class KeyframeReader {
  private:
   void readHeader(const std::vector<Cell>& cells) {
     static const std::vector<std::string> kKnown{"time_s", "role",  "x_m", "y_m", "z_m", "fx_N", "fy_N",
-                                                 "fz_N",   "phase", "qw",  "qx",  "qy",  "qz"};
+                                                 "fz_N",   "phase", "qw",  "qx",  "qy",  "qz",   "intent"};
     std::map<std::string, std::size_t> columns;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (std::find(kKnown.begin(), kKnown.end(), cells[i].text) == kKnown.end()) {
         diagnostics_.error(
             421, {file_, line_, cells[i].column},
             "unknown column '" + cells[i].text + "'" + didYouMean(cells[i].text, kKnown),
-            "columns: time_s, role, x_m, y_m, z_m, and optionally fx_N, fy_N, fz_N, phase, qw, qx, qy, qz");
+            "columns: time_s, role, x_m, y_m, z_m, and optionally fx_N, fy_N, fz_N, phase, intent, qw, qx, qy, qz");
       }
       columns[cells[i].text] = i;
     }
@@ -156,6 +158,10 @@ class KeyframeReader {
       }
       turns_ = true;
     }
+    if (columns.contains("intent") && !columns.contains("phase")) {
+      diagnostics_.error(422, {file_, line_, 1}, "column 'phase' is missing", "an intent is that of a phase");
+      return;
+    }
     columns_ = std::move(columns);
   }
 
@@ -173,6 +179,7 @@ class KeyframeReader {
     frame.force = {number(cells, "fx_N"), number(cells, "fy_N"), number(cells, "fz_N")};
     if (turns_) frame.q_WT = orientation(cells);
     if (columns_.contains("phase")) frame.phase = cells[columns_.at("phase")].text;
+    if (columns_.contains("intent")) frame.intent = intent(cells[columns_.at("intent")]);
     if (!frames.empty() && !(frame.time > frames.back().time)) {
       diagnostics_.error(425, {file_, line_, cells[columns_.at("time_s")].column},
                          "time must increase from row to row: found " + cells[columns_.at("time_s")].text + " after " +
@@ -180,6 +187,14 @@ class KeyframeReader {
       return;
     }
     frames.push_back(std::move(frame));
+  }
+
+  PhaseIntent intent(const Cell& cell) {
+    if (cell.text.empty()) return PhaseIntent::kNone;
+    if (const auto found = phaseIntentOf(cell.text)) return *found;
+    diagnostics_.error(429, {file_, line_, cell.column}, "'" + cell.text + "' is not an intent",
+                       "the intent of a phase is lift, hold, release, or none");
+    return PhaseIntent::kNone;
   }
 
   Quat orientation(const std::vector<Cell>& cells) {

@@ -6,6 +6,7 @@
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/core/math/spatial.h"
 #include "framework/device/minimum_jerk.h"
+#include "framework/device/phase_intent.h"
 
 namespace presa {
 
@@ -35,8 +36,9 @@ class Motion {
   virtual MotionTarget at(double time) const noexcept = 0;
   virtual FingerImpedance impedance() const { return {}; }
   std::vector<std::string> phase_names;
-  bool oriented = false;            ///< the motion says how the tool turns
-  std::vector<double> phase_times;  ///< start of each phase, then the end of the last one [s]
+  bool oriented = false;                   ///< the motion says how the tool turns
+  std::vector<PhaseIntent> phase_intents;  ///< of each phase
+  std::vector<double> phase_times;         ///< start of each phase, then the end of the last one [s]
 
  protected:
   /// Phase at a time; after the end, the last phase.
@@ -54,7 +56,7 @@ struct MotionContext {
 std::unique_ptr<Motion> readPhasedMotion(const std::string& file, const MotionContext& context,
                                          Diagnostics& diagnostics);
 /// Reads keyframes (CSV): header `time_s,role,x_m,y_m,z_m` and optionally `fx_N,fy_N,fz_N`, `qw,qx,qy,qz` (orientation of the
-/// tool as a quaternion), `phase`; minimum-jerk interpolation between keyframes of one role. Null with findings on errors.
+/// tool as a quaternion), `phase`, `intent`; minimum-jerk interpolation between keyframes of one role. Null with findings on errors.
 std::unique_ptr<Motion> readKeyframeMotion(const std::string& file, const MotionContext& context,
                                            Diagnostics& diagnostics);
 

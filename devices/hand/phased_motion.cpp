@@ -44,6 +44,7 @@ class PhasedMotion final : public Motion {
       if (phase.hasAttribute("open") && pose.open > 0) pose.grip = 0;
       knots_.push_back(pose);
       phase_names.push_back(phase.attribute("name"));
+      phase_intents.push_back(phaseIntentOf(phase.attribute("intent")).value_or(PhaseIntent::kNone));
       phase_times.push_back(time);
       time += phase.number("duration", 0);
     }

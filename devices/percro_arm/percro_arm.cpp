@@ -53,6 +53,7 @@ class PercroArm final : public Device {
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
+  std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
   std::string model() const override { return "simulated PERCRO arms, scripted fingers: no device, no person"; }
   std::vector<DeviceFact> facts() const override {
     return {{"motor_heat", "1", arm_.maxHeat(), true}, {"least_force_share", "1", arm_.minShare(), true}};

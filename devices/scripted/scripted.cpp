@@ -45,6 +45,7 @@ class ScriptedFinger final : public Device {
 
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
+  std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
   bool measuresOrientation() const override { return turn_.has_value(); }
   std::string model() const override { return "scripted fingers: no person"; }
   double damping() const override { return damping_; }

@@ -7,6 +7,7 @@
 #include "framework/core/schedule/tick.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/device/phase_intent.h"
 #include "framework/device/pointer_state.h"
 #include "framework/scene/world.h"
 
@@ -64,6 +65,8 @@ class Device {
   virtual std::vector<std::string> phases() const { return {}; }
   /// Start times of those phases, then the end of the last one [s]; empty for a real hand.
   virtual std::vector<double> phaseTimes() const { return {}; }
+  /// What those phases are for, in the order of phases(); empty: nobody says.
+  virtual std::vector<PhaseIntent> phaseIntents() const { return {}; }
   /// Viscous damping b of device plus hand for the stiffness bound K <= (b + B) / ((d + 1/2) T) [N s/m]; 0: unknown.
   virtual double damping() const { return 0; }
   /// Mass m that the force moves, of device plus hand or less, for the damping bound B < 2 m / T [kg]; 0: unknown.

@@ -25,6 +25,7 @@ class WrappedDevice : public Device {
   std::vector<DeviceFact> facts() const override { return device_->facts(); }
   std::vector<std::string> phases() const override { return device_->phases(); }
   std::vector<double> phaseTimes() const override { return device_->phaseTimes(); }
+  std::vector<PhaseIntent> phaseIntents() const override { return device_->phaseIntents(); }
   double damping() const override { return device_->damping(); }
   double mass() const override { return device_->mass(); }
   std::vector<std::string> notes() const override { return device_->notes(); }

@@ -8,7 +8,10 @@
 #include <mutex>
 #include <sstream>
 
+#include "framework/core/diagnostics/printable.h"
 #include "framework/core/diagnostics/refuse.h"
+
+extern "C" const char presa_framework_interface[];  // PresaInterface.cmake writes both sides
 
 namespace presa {
 namespace {
@@ -27,6 +30,22 @@ bool isPluginName(const std::string& name) {
   return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
 }
 
+/// The headers that the shared object was built against, in words; empty: it does not say. Its code has not been called.
+std::string interfaceOf(void* handle) {
+  const auto* text = static_cast<const char*>(dlsym(handle, "presa_plugin_interface"));
+  return text == nullptr ? "" : printable(text);
+}
+
+/// Of another hash, its idea of where a field or a virtual function lies may be wrong.
+void requireInterface(void* handle, const std::string& path) {
+  const std::string theirs = interfaceOf(handle);
+  if (theirs == presa_framework_interface) return;
+  refuse(510, path,
+         "built for " + (theirs.empty() ? "a Presa that did not yet name its plug-in interface" : theirs) +
+             ", this program is " + presa_framework_interface,
+         "build it again: cmake --build BUILD in the plug-in's project, or ./dev build for Presa's own");
+}
+
 void* openPlugin(const std::string& name) {
   if (!isPluginName(name)) {
     refuse(590, "", "'" + name + "' is not the name of a plug-in",
@@ -42,7 +61,10 @@ void* openPlugin(const std::string& name) {
       continue;
     }
     // RTLD_NOW: a plug-in that lacks a library fails here, not at its first call in a running haptic loop.
-    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+      requireInterface(handle, path.string());
+      return handle;
+    }
     const char* reason = dlerror();
     refuse(591, "", "plug-in " + path.string() + " does not load: " + (reason ? reason : "unknown reason"),
            "install the library it needs, or build it again with this version of Presa");
@@ -78,7 +100,7 @@ void requireAbi(const std::string& plugin, int abi) {
   if (abi == kPluginAbi) return;
   refuse(510, "presa_" + plugin + ".so",
          "built for plug-in interface " + std::to_string(abi) + ", this program has " + std::to_string(kPluginAbi),
-         "build it again: ./dev build");
+         "build it again: cmake --build BUILD in the plug-in's project, or ./dev build for Presa's own");
 }
 
 std::string helperProgram(const std::string& name) { return frameworkFolder() / name; }

@@ -4,14 +4,16 @@
 
 namespace presa {
 
-/// Version of the interface between the program and its plug-ins; a plug-in of another version is refused (E510).
+/// Version of the tables that plug-ins return. Whatever else a plug-in compiles against is in the hash of the installed
+/// headers, which the build puts into every plug-in (PresaInterface.cmake): one of another hash is refused before any of
+/// its code is called (E510).
 inline constexpr int kPluginAbi = 26;
 
 /// Address of the C symbol `symbol` in the plug-in `presa_<name>.so`. The plug-in is looked for in the folders of the
 /// environment variable PRESA_PLUGIN_PATH (separated by colons), then beside the framework library; it is loaded at the
 /// first call and stays loaded until the process ends, so that addresses remain valid.
 /// Thread: any (not the haptic group). Throws InputError: E590 no such plug-in (with the paths tried), E591 it does not
-/// load, E592 it has no such symbol.
+/// load, E592 it has no such symbol, E510 it was built against other headers.
 void* pluginSymbol(const std::string& name, const char* symbol);
 
 /// The folders that plug-ins are looked for in, first to last.

@@ -159,7 +159,7 @@ void checkEngine(const Scene& scene, const Plan& plan, Diagnostics& diagnostics)
                         "engines that do: " + enginesThat(&Manifest::ModuleRole::body_effects));
     }
     if (!role.joints && !scene.joints.empty())
-      diagnostics.error(245, scene.joints[0].where,
+      diagnostics.error(234, scene.joints[0].where,
                         "the scene has joints, and " + planned.plugin + " does not support them",
                         "engines that do: " + enginesThat(&Manifest::ModuleRole::joints));
     if (!role.snap && scene.assembly)

@@ -6,6 +6,7 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/record/mesh_sums.h"
 #include "framework/scene/open_surfaces.h"
 #include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
@@ -194,6 +195,12 @@ void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& d
   }
 }
 
+/// Another mesh gives other forces: then a replay would say that the program differs.
+void checkMeshes(const Recording& recording, const Scene& scene, Diagnostics& diagnostics) {
+  for (const std::string& sentence : changedMeshes(recording.file, scene))
+    diagnostics.error(679, {recording.file, 0, 0}, sentence, "put the mesh of the run back, and replay it again");
+}
+
 /// Modules that repeat the recorded changes; none if nothing changed during the run.
 std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
   std::vector<std::unique_ptr<Module>> changes;
@@ -254,6 +261,7 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   Loaded loaded =
       loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, options, diagnostics);
   if (!diagnostics.hasErrors()) checkBelongs(recording, loaded.world->scene, diagnostics);
+  if (!diagnostics.hasErrors()) checkMeshes(recording, loaded.world->scene, diagnostics);
   if (diagnostics.hasErrors()) return;
   Session::Options session_options;
   session_options.devices = devicesOf(recording);

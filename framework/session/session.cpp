@@ -203,8 +203,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   if (!devices_.empty()) {
     output_ = &builder.add(std::make_unique<DeviceOutput>(devices_, safety, world_->scene.rates, options_.realtime));
   }
-  monitor_ =
-      &builder.add(std::make_unique<Monitor>(world_, options_.duration, phaseStart("loosen"), options.trace_rate));
+  monitor_ = &builder.add(std::make_unique<Monitor>(world_, options_.duration, releaseTime(), options.trace_rate));
   for (auto& module : options.more) builder.add(std::move(module));
   builder.connectByName();
   graph_ = builder.build();
@@ -287,6 +286,12 @@ std::vector<std::size_t> Session::orientedTools() const {
 }
 
 double Session::phaseStart(const std::string& phase) const {
+  if (const auto intent = phaseIntentOf(phase)) {
+    for (const auto& device : devices_) {
+      if (const auto span = firstSpanOf(*intent, device->phaseIntents(), device->phaseTimes())) return span->begin;
+    }
+    return std::numeric_limits<double>::infinity();  // such a word is an intent, and no name
+  }
   for (const auto& device : devices_) {
     const auto names = device->phases();
     const auto times = device->phaseTimes();
@@ -295,6 +300,16 @@ double Session::phaseStart(const std::string& phase) const {
     if (phase_index < std::min(names.size(), times.size())) return times[phase_index];
   }
   return std::numeric_limits<double>::infinity();
+}
+
+double Session::releaseTime() const {
+  bool said = false;
+  for (const auto& device : devices_) {
+    const auto intents = device->phaseIntents();
+    if (const auto span = firstSpanOf(PhaseIntent::kRelease, intents, device->phaseTimes())) return span->begin;
+    said = said || std::any_of(intents.begin(), intents.end(), [](PhaseIntent i) { return i != PhaseIntent::kNone; });
+  }
+  return said ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace presa

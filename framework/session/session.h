@@ -59,7 +59,7 @@ class Session {
   std::optional<std::string> brokenPlugin() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
 
-  /// Start of the scripted phase of that name [s]; infinity when no device has one.
+  /// Start of the first scripted phase of that intent, or of that name if no intent is called so [s]; infinity if none.
   double phaseStart(const std::string& phase) const;
 
  private:
@@ -67,6 +67,7 @@ class Session {
   void putIntoFrames();
   void offerPointer();
   std::vector<std::size_t> orientedTools() const;
+  double releaseTime() const;  ///< as Monitor takes it [s]
   std::unique_ptr<Module> load(const PlannedModule& planned);
 
   std::shared_ptr<const World> world_;

@@ -66,7 +66,12 @@ void Video::start(int width, int height) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, const_cast<char**>(words.data()), environ);
+  // Ctrl-C at the terminal goes to the group of the program: ffmpeg ends when the last frame has come
+  posix_spawnattr_t apart;
+  posix_spawnattr_init(&apart);
+  posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, &apart, const_cast<char**>(words.data()), environ);
+  posix_spawnattr_destroy(&apart);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);
   pipe_ = ends[1];

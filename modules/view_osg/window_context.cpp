@@ -1,5 +1,6 @@
 #include "modules/view_osg/window_context.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string_view>
@@ -7,12 +8,13 @@
 namespace presa::view {
 namespace {
 
-osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, int width, int height, unsigned samples) {
+osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, const WindowPlace& place, unsigned samples) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
   traits->readDISPLAY();
-  traits->x = traits->y = 40;
-  traits->width = width;
-  traits->height = height;
+  traits->x = place.x;
+  traits->y = place.y;
+  traits->width = place.width;
+  traits->height = place.height;
   traits->windowDecoration = true;
   traits->doubleBuffer = true;
   traits->depth = 24;
@@ -31,6 +33,17 @@ bool isSoftware(osg::GraphicsContext& window) {
   return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
 }
 
+/// On the screen of the environment's display. Call while a window is open on it: see openWindow.
+WindowPlace placeOnScreen(int width, int height) {
+  osg::GraphicsContext::ScreenIdentifier screen;
+  screen.readDISPLAY();
+  screen.setUndefinedScreenDetailsToDefaultScreen();
+  unsigned screen_width = 0, screen_height = 0;
+  if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
+    system->getScreenResolution(screen, screen_width, screen_height);
+  return fitted(width, height, static_cast<int>(screen_width), static_cast<int>(screen_height));
+}
+
 std::string whyNoWindow() {
   const char* display = std::getenv("DISPLAY");
   if (!display) return "DISPLAY is not set";
@@ -44,14 +57,35 @@ std::string whyNoWindow() {
 
 }  // namespace
 
-// The plain window stays open until the multisampled one is: an X server resets when its last client leaves, and drops
-// clients that connect meanwhile.
+WindowPlace fitted(int width, int height, int screen_width, int screen_height) {
+  constexpr int kCorner = 40, kTitleBar = 40;
+  WindowPlace place{kCorner, kCorner, width, height};
+  if (screen_width <= 0 || screen_height <= kTitleBar) return place;
+  const double share = std::min(
+      {1.0, static_cast<double>(screen_width) / width, static_cast<double>(screen_height - kTitleBar) / height});
+  place.width = std::max(1, static_cast<int>(share * width));
+  place.height = std::max(1, static_cast<int>(share * height));
+  place.x = std::min(kCorner, screen_width - place.width);
+  place.y = std::min(kCorner, screen_height - place.height);
+  return place;
+}
+
+// A window stays open until the next one is, also while the screen is asked for its size: an X server resets when its
+// last client leaves, and drops clients that connect meanwhile.
 WindowContext openWindow(const std::string& title, int width, int height) {
-  WindowContext plain{createWindow(title, width, height, 0)};
+  const WindowPlace wanted = fitted(width, height, 0, 0);
+  WindowContext plain{createWindow(title, wanted, 0)};
   if (!plain.context) throw std::runtime_error(whyNoWindow());
+  const WindowPlace place = placeOnScreen(width, height);
+  if (place != wanted) {
+    const osg::ref_ptr<osg::GraphicsContext> smaller = createWindow(title, place, 0);
+    if (!smaller) throw std::runtime_error(whyNoWindow());
+    plain.context->close();
+    plain.context = smaller;
+  }
   plain.software = isSoftware(*plain.context);
   if (plain.software) return plain;
-  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, width, height, 4);
+  const osg::ref_ptr<osg::GraphicsContext> smooth = createWindow(title, place, 4);
   if (!smooth || !smooth->realize()) return plain;
   plain.context->close();
   return {smooth, false};

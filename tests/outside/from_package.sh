@@ -37,6 +37,8 @@ project() {  # KIND NAME: its tests pass; the current folder becomes its own
   run ctest --test-dir build --output-on-failure --no-tests=error
 }
 
+[[ -s $prefix/share/man/man1/presa-run.1 && -s $prefix/share/bash-completion/completions/presa ]] || fail "no man page, or no completion"
+
 project effect soft_pull
 refused "scene/lift.xml:16:5: error[E111]: unknown element <soft_pull>" "${bare[@]}" presa check scene/lift.xml
 refused "PRESA_PLUGIN_PATH" "${bare[@]}" presa check scene/lift.xml
@@ -46,6 +48,15 @@ shows "$("${found[@]}" presa plugins)" "soft_pull 0.1.0 (force effect), $PWD/bui
 "${found[@]}" presa run scene/lift.xml --lockstep --quiet --summary with.json
 run presa run "$prefix/share/presa/config/scenes/cube.xml" --lockstep --quiet --summary without.json
 [[ $(grep hash with.json) != "$(grep hash without.json)" ]] || fail "the effect changed nothing"
+# built against the headers of another Presa it is refused, before any of its code runs; building it again is enough
+interface=$prefix/lib/cmake/Presa/plugin_interface.cpp
+cp "$interface" interface.kept
+sed -i 's/(interface [0-9a-f]*)/(interface 0123456789ab)/' "$interface"
+run cmake --build build >/dev/null
+refused "error[E510]: built for Presa 0.1.0 (interface 0123456789ab), this program is Presa" "${found[@]}" presa run scene/lift.xml --lockstep --quiet
+cp interface.kept "$interface"
+run cmake --build build >/dev/null
+"${found[@]}" presa run scene/lift.xml --lockstep --quiet
 # in the prefix it is found without a variable
 run cmake --install build --prefix "$prefix" >/dev/null
 shows "$(run presa check scene/lift.xml)" "scene/lift.xml: good"

@@ -1,16 +1,48 @@
 #include "apps/common/options/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 #include <utility>
 
+#include "apps/common/options/usage.h"
+
 namespace presa {
+namespace {
+
+/// Says what is wrong with a number before the parser does.
+CLI::Validator number(NumberRule rule, const std::string& kind) {
+  return CLI::Validator([rule](const std::string& value) { return numberTrouble(value, rule); }, kind);
+}
+
+/// In the help.
+std::string rangeText(double min, double max) {
+  std::ostringstream text;
+  text << "in [" << min << " - " << max << "]";
+  return text.str();
+}
+
+constexpr NumberRule kAny{}, kWhole{.whole = true}, kCount{.whole = true, .min = 0};
+
+/// An option whose values are numbers of this kind.
+Option numeric(CLI::Option& option, const NumberRule& rule) { return Option(*option.check(number(rule, ""))); }
+
+}  // namespace
 
 Option& Option::required() { return option_->required(), *this; }
-Option& Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
-Option& Option::nonNegative() { return option_->check(CLI::NonNegativeNumber), *this; }
-Option& Option::within(double min, double max) { return option_->check(CLI::Range(min, max)), *this; }
-Option& Option::withinCount(int min, int max) { return option_->check(CLI::Range(min, max)), *this; }
-Option& Option::oneOf(const std::vector<std::string>& words) { return option_->check(CLI::IsMember(words)), *this; }
+Option& Option::positive() { return option_->check(number({.above = true, .min = 0}, "POSITIVE")), *this; }
+Option& Option::nonNegative() { return option_->check(number({.min = 0}, "NONNEGATIVE")), *this; }
+Option& Option::within(double min, double max) {
+  return option_->check(number({.min = min, .max = max}, rangeText(min, max))), *this;
+}
+Option& Option::withinCount(int min, int max) {
+  return option_->check(number({.whole = true, .min = static_cast<double>(min), .max = static_cast<double>(max)},
+                               rangeText(min, max))),
+         *this;
+}
+Option& Option::oneOf(const std::vector<std::string>& words) {
+  return checked([words](const std::string& value) { return choiceTrouble(value, words); },
+                 "{" + CLI::detail::join(words, ",") + "}");
+}
 Option& Option::existingFile() { return option_->check(CLI::ExistingFile), *this; }
 Option& Option::existingFolder() { return option_->check(CLI::ExistingDirectory), *this; }
 Option& Option::checked(std::function<std::string(const std::string&)> problem, const std::string& kind) {
@@ -37,25 +69,25 @@ Option Command::option(const std::string& name, std::string& value, const std::s
   return Option(*app_->add_option(name, value, help));
 }
 Option Command::option(const std::string& name, double& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kAny);
 }
 Option Command::option(const std::string& name, int& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kWhole);
 }
 Option Command::option(const std::string& name, unsigned& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kCount);
 }
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kCount);
 }
 Option Command::option(const std::string& name, std::optional<double>& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kAny);
 }
 Option Command::option(const std::string& name, std::optional<int>& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kWhole);
 }
 Option Command::option(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help) {
-  return Option(*app_->add_option(name, value, help));
+  return numeric(*app_->add_option(name, value, help), kCount);
 }
 Option Command::option(const std::string& name, std::optional<std::string>& value, const std::string& help) {
   return Option(*app_->add_option(name, value, help));
@@ -64,7 +96,7 @@ Option Command::option(const std::string& name, std::vector<std::string>& values
   return Option(*app_->add_option(name, values, help));
 }
 Option Command::option(const std::string& name, std::vector<double>& values, const std::string& help) {
-  return Option(*app_->add_option(name, values, help));
+  return numeric(*app_->add_option(name, values, help), kAny);
 }
 Option Command::flag(const std::string& name, bool& set, const std::string& help) {
   return Option(*app_->add_flag(name, set, help));
@@ -73,8 +105,9 @@ Option Command::each(const std::string& name, std::function<void(const std::stri
   return Option(*app_->add_option_function<std::string>(name, std::move(take), help));
 }
 Option Command::eachNumber(const std::string& name, std::function<void(int)> take, const std::string& help) {
-  return Option(*app_->add_option_function<int>(
-      name, [take = std::move(take)](const int& value) { take(value); }, help));
+  return numeric(*app_->add_option_function<int>(
+                     name, [take = std::move(take)](const int& value) { take(value); }, help),
+                 kWhole);
 }
 bool Command::given(const std::string& name) const { return app_->count(name) > 0; }
 Option Command::named(const std::string& name) { return Option(*app_->get_option(name)); }

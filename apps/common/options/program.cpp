@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "apps/common/exit_status.h"
+#include "apps/common/options/usage.h"
 #include "apps/common/standard_streams.h"
 #include "apps/common/version.h"
 #include "framework/core/diagnostics/diagnostics.h"
@@ -85,8 +86,8 @@ std::string summaryOf(const fs::path& program) {
   return printable(std::string(line.data(), std::strcspn(line.data(), "\n")));
 }
 
-/// Lists the other programs of this folder in the help, each under the words of its command.
-void listPrograms(CLI::App& app) {
+/// The other programs of this folder, in order.
+std::vector<fs::path> programs() {
   std::vector<fs::path> found;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(programFolder(), error)) {
@@ -94,8 +95,21 @@ void listPrograms(CLI::App& app) {
       found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
-  for (const fs::path& program : found) {
-    const std::string name = program.filename().string().substr(std::strlen("presa-"));
+  return found;
+}
+
+std::string commandOf(const fs::path& program) { return program.filename().string().substr(std::strlen("presa-")); }
+
+std::vector<std::string> programCommands() {
+  std::vector<std::string> names;
+  for (const fs::path& program : programs()) names.push_back(commandOf(program));
+  return names;
+}
+
+/// Lists the other programs of this folder in the help, each under the words of its command.
+void listPrograms(CLI::App& app) {
+  for (const fs::path& program : programs()) {
+    const std::string name = commandOf(program);
     const std::size_t dash = name.find('-');
     const auto groups = app.get_subcommands([&](const CLI::App* command) {
       return dash != std::string::npos && command->get_name() == name.substr(0, dash);
@@ -107,23 +121,42 @@ void listPrograms(CLI::App& app) {
 }
 
 bool asksForHelp(int argc, char** argv) {
-  return argc < 2 || std::any_of(argv + 1, argv + argc, [](const char* word) {
-           return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0;
-         });
+  return std::any_of(argv + 1, argv + argc, [](const char* word) {
+    return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0 || std::strcmp(word, "help") == 0;
+  });
 }
 
-/// The arguments of `presa`, preceded by the words of this program; in reverse, as the option parser takes them.
+/// The arguments of `presa`, preceded by the words of this program.
 std::vector<std::string> wordsOf(int argc, char** argv, const Program& program) {
   std::vector<std::string> words = program.words;
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
-  std::reverse(words.begin(), words.end());
   return words;
+}
+
+/// `presa help COMMAND …` is `presa COMMAND … --help`, for the commands of other programs, too.
+void turnHelp(int argc, char** argv) {
+  static char help[] = "--help";
+  if (argc < 3 || std::strcmp(argv[1], "help") != 0) return;
+  std::rotate(argv + 1, argv + 2, argv + argc);
+  argv[argc - 1] = help;
+}
+
+void parse(CLI::App& app, std::vector<std::string> words, const Program& program) {
+  requireCommand(app, words, program.words.empty() ? programCommands() : std::vector<std::string>{});
+  std::reverse(words.begin(), words.end());  // as the option parser takes them
+  try {
+    app.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) refuseUsage(app, error);
+    app.exit(error);  // help and version are not errors
+  }
 }
 
 }  // namespace
 
 int runProgram(int argc, char** argv, const Program& program) {
   openStandardStreams();
+  if (program.words.empty()) turnHelp(argc, argv);
   if (program.words.empty()) becomeNamed(argc, argv);
   input::allowFoldersOf(argc, argv);
   CLI::App app{"Presa: virtual environments that people pick up with their fingers"};
@@ -142,10 +175,7 @@ int runProgram(int argc, char** argv, const Program& program) {
   offerFolders(app);
   if (program.words.empty() && asksForHelp(argc, argv)) listPrograms(app);
   try {
-    app.parse(wordsOf(argc, argv, program));
-  } catch (const CLI::ParseError& error) {
-    // help and version are not errors; everything else is bad input
-    return app.exit(error) == 0 ? kExitOk : kExitBadInput;
+    parse(app, wordsOf(argc, argv, program), program);
   } catch (const InputError& error) {
     std::fputs(error.diagnostics().text().c_str(), stderr);
     return kExitBadInput;

@@ -80,6 +80,17 @@ std::vector<svg::Band> touched(const RunResult& result, std::size_t contact_poin
   return spans;
 }
 
+/// While forces fade after a stop, rendered forces are felt by nobody and may exceed every limit.
+void hideRenderedAfter(double stop, const BoundedList<TraceSample>& trace, svg::Panel& force) {
+  for (svg::Series& series : force.series) {
+    if (series.css_class.starts_with("thin")) {
+      for (std::size_t i = 0; i < trace.size(); ++i) {
+        if (trace[i].time >= stop) series.y[i] = series.low[i] = series.high[i] = std::nan("");
+      }
+    }
+  }
+}
+
 /// Force of the finger's device, split along the contact normal: what was commanded in front, what was rendered behind.
 svg::Panel forcePanel(const RunResult& result, std::size_t f, const std::vector<svg::Band>& spans) {
   const BoundedList<TraceSample>& trace = *result.trace;
@@ -98,6 +109,7 @@ svg::Panel forcePanel(const RunResult& result, std::size_t f, const std::vector<
       ranged(
           trace, f, "normal, commanded", "force", [&](const auto& s) { return commanded(s).normal; },
           &TraceRanges::commanded_normal)};
+  if (result.stopped_at >= 0) hideRenderedAfter(result.stopped_at, trace, force);
   return force;
 }
 
@@ -114,6 +126,7 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   for (const RunResult::Phase& phase : result.phases) figure.bands.push_back({phase.name, phase.begin, phase.end});
 
   for (const RunResult::Fault& fault : result.faults) addFault(fault.time, fault.text, figure.events);
+  if (result.stopped_at >= 0) figure.events.push_back({"stopped by you", result.stopped_at});
 
   svg::Panel height{.title = "Height", .unit = "m", .height = 230};
   height.series = {ranged(
@@ -151,6 +164,7 @@ svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<G
   const RunResult::Object* object = drawnObject(result, grasp);
   for (const TraceSample& sample : *result.trace) {
     const FingerContact& contact = sample.fingers[contact_point];
+    if (result.stopped_at >= 0 && sample.time >= result.stopped_at) break;
     if (contact.mode == ContactMode::kNone || (object && contact.body != object->body)) continue;
     svg::Cloud& cloud = contact.mode == ContactMode::kSlip ? slip : stick;
     cloud.points.push_back({contact.normal_force, contact.tangential_force_W.norm()});

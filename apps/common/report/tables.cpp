@@ -69,14 +69,14 @@ std::string contactTable(const RunResult& result) {
   std::string rows;
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
-    rows +=
-        row({escape(point.name), fixed(sum.seconds[0], 3), fixed(sum.seconds[1], 3), fixed(sum.seconds[2], 3),
-             fixed(sum.mean_normal_force, 3), fixed(sum.max_normal_force, 3), count(sum.slip_onsets), count(sum.leaps),
-             count(sum.pop_through), sum.reaction.windows == 0 ? "–" : fixed(100 * sum.reaction.worst, 2) + " %"});
+    rows += row({escape(point.name), fixed(sum.seconds[0], 3), fixed(sum.seconds[1], 3), fixed(sum.seconds[2], 3),
+                 fixed(sum.mean_normal_force, 3), fixed(sum.max_normal_force, 3), fixed(sum.max_commanded_force, 3),
+                 count(sum.slip_onsets), count(sum.leaps), count(sum.pop_through),
+                 sum.reaction.windows == 0 ? "–" : fixed(100 * sum.reaction.worst, 2) + " %"});
   }
   return table(
       {"contact point", "none [s]", "stick [s]", "slip [s]", "mean normal rendered [N]", "max normal rendered [N]",
-       "slip onsets", "out of folds", "pop-through", "impulse mismatch in any 0.1 s"},
+       "max commanded [N]", "slip onsets", "out of folds", "pop-through", "impulse mismatch in any 0.1 s"},
       rows);
 }
 

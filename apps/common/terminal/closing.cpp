@@ -29,13 +29,14 @@ Style styleOf(Verdict::Outcome outcome) {
   return Style::kStrong;
 }
 
+/// Forces along the normal as rendered, and the largest that the device was sent.
 std::string contactTable(const RunResult& result) {
-  std::string out =
-      format("  %-14s %9s %9s %9s %11s %11s\n", "contact point", "free s", "stick s", "slip s", "mean N", "max N");
+  std::string out = format("  %-14s %8s %8s %8s %9s %9s %9s\n", "contact point", "free s", "stick s", "slip s",
+                           "mean N", "max N", "sent max");
   for (const RunResult::ContactPoint& point : result.contact_points) {
     const FingerSummary& sum = point.summary;
-    out += format("  %-14s %9.3f %9.3f %9.3f %11.3f %11.3f\n", printable(point.name).c_str(), sum.seconds[0],
-                  sum.seconds[1], sum.seconds[2], sum.mean_normal_force, sum.max_normal_force);
+    out += format("  %-14s %8.3f %8.3f %8.3f %9.3f %9.3f %9.3f\n", printable(point.name).c_str(), sum.seconds[0],
+                  sum.seconds[1], sum.seconds[2], sum.mean_normal_force, sum.max_normal_force, sum.max_commanded_force);
   }
   return out;
 }

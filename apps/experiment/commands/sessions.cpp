@@ -4,6 +4,9 @@
 #include <memory>
 #include <system_error>
 
+#include <nlohmann/json.hpp>
+
+#include "apps/common/findings_json.h"
 #include "apps/experiment/commands/experiment_commands.h"
 #include "apps/experiment/dataset.h"
 #include "apps/experiment/dry_run.h"
@@ -23,7 +26,7 @@ struct OperatorChoice {
 struct SessionArguments {
   std::string file, rig, simulated, data, subject = "S01", format = "text";
   int number = 0, session = 1;
-  bool lockstep = false, no_recording = false, window = false;
+  bool lockstep = false, realtime = false, no_recording = false, window = false;
   std::uint64_t seed = 0;
   OperatorChoice operator_choice;
 };
@@ -89,8 +92,9 @@ int run(const SessionArguments& a) {
   const auto experiment = readExperiment(a.file, a.rig, diagnostics, a.simulated, a.seed);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors() || !experiment) return kExitBadInput;
+  const bool realtime = a.realtime || (!a.lockstep && (a.simulated.empty() || a.window));
   auto session = SubjectSession::begin(*experiment,
-                                       {a.file, a.rig, subject, a.session, !a.lockstep, a.simulated, experiment->model,
+                                       {a.file, a.rig, subject, a.session, realtime, a.simulated, experiment->model,
                                         experiment->seed, !a.no_recording, a.window},
                                        a.data);
   return runToEnd(session, a.operator_choice);
@@ -163,13 +167,39 @@ void addDryRun(Command app, int& status) {
   command.action([a, &status] { status = dryRun(*a); });
 }
 
+/// `presa check` asks for experiments with this. Its findings go to stderr as text, or not at all, and to stdout as
+/// JSON.
+int checkExperiment(const std::string& file, const std::string& rig, bool as_text) {
+  Diagnostics diagnostics;
+  readExperiment(file, rig, diagnostics);
+  if (as_text) std::fputs(diagnostics.text().c_str(), stderr);
+  std::printf("%s\n", findingsJson(file, "experiment", diagnostics).dump().c_str());
+  return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
+}
+
+void addCheckExperiment(Command app, int& status) {
+  auto file = std::make_shared<std::string>(), rig = std::make_shared<std::string>();
+  auto report = std::make_shared<std::string>("text");
+  Command command =
+      app.command("check", "Find everything that is wrong with an experiment (presa check does the same)");
+  command.option("EXPERIMENT", *file, "experiment file").required();
+  command.option("--rig", *rig, "rig file instead of the experiment's");
+  command.option("--report", *report, "text: findings to stderr, too; json: only as JSON to stdout")
+      .oneOf({"text", "json"})
+      .showDefault();
+  command.footer("Exit status: 0 good, 2 otherwise.");
+  command.action([=, &status] { status = checkExperiment(*file, *rig, *report == "text"); });
+}
+
 void addRunSession(Command app, int& status) {
   auto a = std::make_shared<SessionArguments>();
   Command command = app.command("run", "Run a session; every trial is on disk before the next begins");
   addWho(command, *a);
   command.named("--subject").required();
   command.option("--data", a->data, "folder of the dataset; the session goes to DATA/sub-ID/ses-N").required();
-  command.flag("--lockstep", a->lockstep, "virtual time, as fast as it goes: for simulated devices");
+  Option lockstep = command.flag("--lockstep", a->lockstep,
+                                 "virtual time, as fast as it goes (default with --simulated, but not with --window)");
+  command.flag("--realtime", a->realtime, "against the clock (default for a person)").excludes(lockstep);
   command.flag("--no-recording", a->no_recording, "keep the row of each trial, not every haptic tick");
   command.flag("--window", a->window,
                "a window for the participant: scene, fingertips, instructions, nothing that is measured "
@@ -195,6 +225,7 @@ void addResume(Command app, int& status) {
 
 void addSessionCommands(Command app, int& status) {
   addDryRun(app, status);
+  addCheckExperiment(app, status);
   addRunSession(app, status);
   addResume(app, status);
 }

@@ -2,6 +2,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/common/findings_json.h"
+#include "apps/common/terminal/text.h"
+#include "apps/common/terminal/waiting.h"
+#include "apps/presa/check/ask_experiment.h"
+#include "apps/presa/check/file_checks.h"
+#include "apps/presa/check/start_warnings.h"
 #include "apps/presa/commands/commands.h"
 #include "framework/scene/decompositions.h"
 #include "framework/session/load_world.h"
@@ -10,58 +16,108 @@ namespace presa {
 namespace {
 
 struct CheckArguments {
-  std::vector<std::string> scenes;
+  std::vector<std::string> files;
   std::string rig, format = "text";
   std::vector<std::string> sets;
 };
 
-nlohmann::json toJson(const Diagnostic& diagnostic) {
-  return {{"severity", diagnostic.severity == Diagnostic::Severity::kError ? "error" : "warning"},
-          {"code", diagnostic.code},
-          {"file", diagnostic.where.file},
-          {"line", diagnostic.where.line},
-          {"column", diagnostic.where.column},
-          {"message", diagnostic.message},
-          {"help", diagnostic.help}};
-}
+/// What was found about one file.
+struct Checked {
+  nlohmann::json report;
+  std::string good;                  ///< about a file without errors
+  std::vector<std::string> details;  ///< further lines about it
+};
+
+constexpr double kMeasured = 0.1;  // simulated seconds in which the dynamics of meshes are measured
 
 nlohmann::json toJson(const DecomposedMesh& mesh) {
   return {{"body", mesh.body}, {"file", mesh.file}, {"pieces", mesh.pieces}, {"hausdorff_mm", 1e3 * mesh.error}};
 }
 
-int check(const CheckArguments& arguments) {
+void printText(const Diagnostics& diagnostics, const CheckArguments& arguments) {
+  if (arguments.format == "text") std::fputs(diagnostics.text().c_str(), stderr);
+}
+
+std::string sizesOf(const World& world) {
+  std::size_t triangles = 0;
+  for (const BodyMeshes& meshes : world.meshes) triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
+  return terminal::format("%zu bodies, %zu materials, %zu devices, %zu haptic triangles", world.scene.bodies.size(),
+                          world.scene.materials.size(), world.scene.devices.size(), triangles);
+}
+
+Checked checkScene(const std::string& file, const CheckArguments& arguments) {
+  const terminal::Waiting waiting("checking " + file);
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.bound_stiffness = true;
+  Loaded loaded = loadWorld({file, arguments.rig, arguments.sets}, options, diagnostics);
+  Checked checked;
+  const std::shared_ptr<const World> world = loaded.world;
+  if (!diagnostics.hasErrors()) {
+    check::warnOfStart(loaded, diagnostics);
+    check::warnOfSlowMeshes(std::move(loaded), kMeasured, diagnostics);
+    checked.good = sizesOf(*world);
+  }
+  checked.report = findingsJson(file, "scene", diagnostics);
+  nlohmann::json& decomposed = checked.report["decomposed"] = nlohmann::json::array();
+  if (world != nullptr) {
+    for (const DecomposedMesh& mesh : decompositionsOf(*world)) {
+      decomposed.push_back(toJson(mesh));
+      checked.details.push_back(textOf(mesh));
+    }
+  }
+  printText(diagnostics, arguments);
+  return checked;
+}
+
+Checked checkAlone(const std::string& file, const std::string& kind, const CheckArguments& arguments) {
+  Diagnostics diagnostics;
+  Checked checked;
+  checked.good =
+      kind + ", " + (kind == "rig" ? check::checkRig(file, diagnostics) : check::checkMotion(file, diagnostics));
+  checked.report = findingsJson(file, kind, diagnostics);
+  printText(diagnostics, arguments);
+  return checked;
+}
+
+Checked checkOne(const std::string& file, const CheckArguments& arguments) {
+  switch (check::kindOf(file)) {
+    case check::FileKind::kRig:
+      return checkAlone(file, "rig", arguments);
+    case check::FileKind::kMotion:
+      return checkAlone(file, "motion", arguments);
+    case check::FileKind::kExperiment: {  // its reader belongs to another program
+      Checked checked;
+      checked.report = check::askExperiment(file, arguments.rig, arguments.format);
+      checked.good = "experiment";
+      return checked;
+    }
+    case check::FileKind::kScene:
+      break;
+  }
+  return checkScene(file, arguments);
+}
+
+void printResult(const std::string& file, const Checked& checked) {
+  std::size_t errors = 0;
+  for (const nlohmann::json& finding : checked.report.at("findings"))
+    errors += finding.at("severity") == "error" ? 1 : 0;
+  const bool valid = checked.report.at("valid").get<bool>();
+  if (valid) std::printf("%s: good (%s)\n", file.c_str(), checked.good.c_str());
+  if (!valid) std::printf("%s: %zu error%s\n", file.c_str(), errors, errors == 1 ? "" : "s");
+  for (const std::string& detail : checked.details) {
+    if (valid) std::printf("  %s\n", detail.c_str());
+  }
+}
+
+int checkAll(const CheckArguments& arguments) {
   bool good = true;
   nlohmann::json report = nlohmann::json::array();
-  for (const std::string& scene : arguments.scenes) {
-    Diagnostics diagnostics;
-    RunOptions options;
-    options.bound_stiffness = true;
-    const Loaded loaded = loadWorld({scene, arguments.rig, arguments.sets}, options, diagnostics);
-    good = good && !diagnostics.hasErrors();
-    if (arguments.format == "json") {
-      nlohmann::json findings = nlohmann::json::array();
-      for (const Diagnostic& diagnostic : diagnostics.all()) findings.push_back(toJson(diagnostic));
-      nlohmann::json decomposed = nlohmann::json::array();
-      if (loaded.world) {
-        for (const DecomposedMesh& mesh : decompositionsOf(*loaded.world)) decomposed.push_back(toJson(mesh));
-      }
-      report.push_back(
-          {{"scene", scene}, {"valid", !diagnostics.hasErrors()}, {"findings", findings}, {"decomposed", decomposed}});
-      continue;
-    }
-    std::fputs(diagnostics.text().c_str(), stderr);
-    if (diagnostics.hasErrors()) {
-      std::printf("%s: %zu error%s\n", scene.c_str(), diagnostics.errorCount(),
-                  diagnostics.errorCount() == 1 ? "" : "s");
-      continue;
-    }
-    std::size_t triangles = 0;
-    for (const BodyMeshes& meshes : loaded.world->meshes)
-      triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
-    std::printf("%s: good (%zu bodies, %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
-                loaded.world->scene.bodies.size(), loaded.world->scene.materials.size(),
-                loaded.world->scene.devices.size(), triangles);
-    for (const DecomposedMesh& mesh : decompositionsOf(*loaded.world)) std::printf("  %s\n", textOf(mesh).c_str());
+  for (const std::string& file : arguments.files) {
+    const Checked checked = checkOne(file, arguments);
+    good = good && checked.report.at("valid").get<bool>();
+    if (arguments.format == "text") printResult(file, checked);
+    report.push_back(checked.report);
   }
   if (arguments.format == "json") std::printf("%s\n", report.dump(2).c_str());
   return good ? kExitOk : kExitBadInput;
@@ -71,13 +127,16 @@ int check(const CheckArguments& arguments) {
 
 void addCheck(Command app, int& status) {
   auto arguments = std::make_shared<CheckArguments>();
-  Command command = app.command("check", "Read scenes with their rigs and meshes, and report everything that is wrong");
-  command.option("SCENE", arguments->scenes, "scene files").required();
-  command.option("--rig", arguments->rig, "rig file instead of the scene's own");
+  Command command = app.command(
+      "check", "Read scenes with their rigs and meshes, rigs, motions and experiments; tell all that is wrong");
+  command.option("FILE", arguments->files, "scene, rig, motion or experiment files").required();
+  command.option("--rig", arguments->rig, "rig file instead of the one that a scene or an experiment names");
   command.option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
   command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});
-  command.footer("Exit status: 0 every scene is good, 2 otherwise.\nExample:  presa check config/scenes/*.xml");
-  command.action([arguments, &status] { status = check(*arguments); });
+  command.footer(
+      "A rig and a motion are checked without a scene.\nExit status: 0 every file is good, 2 otherwise.\n"
+      "Example:  presa check config/scenes/*.xml config/rigs/*.xml config/motions/*");
+  command.action([arguments, &status] { status = checkAll(*arguments); });
 }
 
 }  // namespace presa

@@ -62,6 +62,9 @@ void printHeader(const std::string& file, const Recording& recording) {
               recording.realtime ? "real time" : "lockstep", recording.checksum ? "checksum right" : "no checksum",
               recording.dropped > 0 ? ", INCOMPLETE" : "");
   printProvenance(recording);
+  const auto stop =
+      std::ranges::find_if(recording.device, [](const DeviceState& state) { return state.stop_requested; });
+  if (stop != recording.device.end()) std::printf("  stopped by the user at %.3f s; then forces faded\n", stop->time);
 }
 
 int printVerdict(const ReplayResult& result) {

@@ -1,17 +1,20 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "apps/common/machine.h"
 #include "apps/common/options/bus_options.h"
 #include "apps/common/options/view_options.h"
+#include "apps/common/output_place.h"
 #include "apps/common/report/report.h"
 #include "apps/common/summary.h"
 #include "apps/common/terminal/closing.h"
+#include "apps/common/terminal/waiting.h"
 #include "apps/common/terminal_run.h"
 #include "apps/presa/commands/commands.h"
 #include "framework/bus/bus_keys.h"
+#include "framework/core/diagnostics/printable.h"
 #include "framework/session/load_world.h"
 
 namespace presa {
@@ -27,22 +30,58 @@ struct RunArguments {
   std::string summary, report;
 };
 
-void checkOutputs(const RunArguments& arguments, Diagnostics& diagnostics) {
-  for (const std::string& file : {arguments.options.record, arguments.options.flight, arguments.options.screenshot,
-                                  arguments.options.video, arguments.summary, arguments.report}) {
-    if (file.empty()) continue;
-    std::error_code error;
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder, error);
-    if (error)
-      diagnostics.error(124, {file, 0, 0}, "cannot make the folder " + folder.string() + ": " + error.message());
+void checkPlaces(const RunArguments& arguments, Diagnostics& diagnostics) {
+  const RunOptions& options = arguments.options;
+  for (const auto& [option, file] : {std::pair{"--record", options.record},
+                                     {"--flight", options.flight},
+                                     {"--screenshot", options.screenshot},
+                                     {"--video", options.video},
+                                     {"--summary", arguments.summary},
+                                     {"--report", arguments.report}}) {
+    const std::string trouble = file.empty() ? "" : placeTrouble(file);
+    if (!trouble.empty())
+      diagnostics.error(124, {option, 0, 0}, "'" + printable(file) + "' cannot be written: " + trouble,
+                        "name a file in a folder that you may write to; nothing was run");
   }
+}
+
+void checkOutputs(const RunArguments& arguments, Diagnostics& diagnostics) {
   for (const auto& [option, file] :
        {std::pair{"--screenshot", arguments.options.screenshot}, {"--video", arguments.options.video}}) {
     if (arguments.view == "none" && !file.empty())
       diagnostics.error(121, {option, 0, 0}, "a picture of the run needs a view, found --view none",
                         "use --view offscreen");
   }
+}
+
+/// Options that say nothing for this run, which would be ignored in silence.
+void checkOptions(const RunArguments& arguments, const RunOptions& options, Diagnostics& diagnostics) {
+  if (arguments.speed > 0 && options.realtime)
+    diagnostics.error(123, {"--speed", 0, 0}, "only a run in virtual time has a speed, this one keeps to the clock",
+                      "add --lockstep");
+  if (options.screenshot_time < 0) return;
+  std::array<char, 160> text;
+  if (options.screenshot.empty()) {
+    diagnostics.error(123, {"--screenshot-at", 0, 0}, "says when, but not where the picture goes",
+                      "add --screenshot FILE.png");
+  } else if (options.screenshot_time > options.duration) {
+    std::snprintf(text.data(), text.size(), "the run ends at %g s, before the picture at %g s", options.duration,
+                  options.screenshot_time);
+    diagnostics.error(123, {"--screenshot-at", 0, 0}, text.data(), "name an earlier time, or a later end with --for");
+  }
+}
+
+/// Nobody needs the clock: no person, no device, and no one who watches on the network.
+bool modelsOnly(const Loaded& loaded) {
+  const bool on_bus = loaded.options.bus && loaded.options.bus->network != "none";
+  return !on_bus && !loaded.devices.empty() &&
+         std::ranges::all_of(loaded.devices, [](const auto& device) { return !device->model().empty(); });
+}
+
+/// Without a closing text, a fault would leave no word.
+void printFaults(const RunResult& result) {
+  for (const RunResult::Fault& fault : result.faults)
+    std::fprintf(stderr, "presa run: fault at %.3f s: %s\n", fault.time, printable(fault.text).c_str());
 }
 
 std::string commandLine(const RunArguments& a) {
@@ -68,10 +107,16 @@ int printPlugIns(const RunArguments& arguments, Diagnostics& diagnostics) {
   return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
 }
 
+Loaded loadWith(const RunArguments& arguments, Diagnostics& diagnostics) {
+  std::optional<terminal::Waiting> waiting;
+  if (!arguments.quiet) waiting.emplace("loading " + arguments.inputs.scene);
+  return loadWorld(arguments.inputs, arguments.options, diagnostics);
+}
+
 int run(RunArguments arguments) {
   arguments.options.realtime = !arguments.lockstep;
   arguments.options.bound_stiffness = true;
-  arguments.options.view = chooseView(arguments.view, arguments.options.realtime,
+  arguments.options.view = chooseView(arguments.view, !arguments.lockstep,
                                       !arguments.options.screenshot.empty() || !arguments.options.video.empty());
   std::string now = utcNow();
   std::erase_if(now, [](char c) { return c == '-' || c == ':'; });
@@ -80,8 +125,11 @@ int run(RunArguments arguments) {
   Diagnostics diagnostics;
   if (arguments.plug_ins) return printPlugIns(arguments, diagnostics);
   arguments.options.picture = pictureOf(arguments.picture, arguments.options, diagnostics);
-  Loaded loaded = loadWorld(arguments.inputs, arguments.options, diagnostics);
+  Loaded loaded = loadWith(arguments, diagnostics);
+  if (!arguments.realtime && modelsOnly(loaded)) arguments.options.realtime = loaded.options.realtime = false;
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
+  if (!diagnostics.hasErrors()) checkOptions(arguments, loaded.options, diagnostics);
+  if (!diagnostics.hasErrors()) checkPlaces(arguments, diagnostics);
   if (!diagnostics.hasErrors() && arguments.options.bus_commands && !loaded.options.bus)
     diagnostics.error(122, {"--bus-commands", 0, 0}, "--bus-commands needs a bus", "add --bus loopback, or --bus lan");
   if (!diagnostics.hasErrors() && loaded.options.bus_commands) bus::requireKeysForCommands(*loaded.options.bus);
@@ -99,6 +147,7 @@ int run(RunArguments arguments) {
   if (!arguments.summary.empty()) writeSummary(result, arguments.summary);
   if (!arguments.report.empty()) writeReport(result, arguments.report);
   if (!arguments.quiet) printClosing(result, arguments.summary, arguments.report);
+  if (arguments.quiet) printFaults(result);
   if (result.interrupted) return kExitInterrupted;
   return result.faults.empty() ? kExitOk : kExitFault;
 }
@@ -112,8 +161,13 @@ void addRun(Command app, int& status) {
   command.option("SCENE", a->inputs.scene, "scene file, e.g. config/scenes/cube.xml").required();
   command.option("--rig", a->inputs.rig,
                  "rig file: the devices for the scene's roles (default: the rig that the scene names)");
-  Option lockstep = command.flag("--lockstep", a->lockstep, "virtual time on one thread: deterministic to the bit");
-  command.flag("--realtime", a->realtime, "one thread per rate, against the clock (default)").excludes(lockstep);
+  Option lockstep =
+      command.flag("--lockstep", a->lockstep,
+                   "virtual time on one thread: deterministic to the bit\n(default where models move every finger)");
+  command
+      .flag("--realtime", a->realtime,
+            "one thread per rate, against the clock (default, unless models move every finger)")
+      .excludes(lockstep);
   command
       .option("--for", a->options.duration, "simulated seconds (default: to the end of the scripted motion, else 10)")
       .positive();
@@ -134,7 +188,7 @@ void addRun(Command app, int& status) {
       .oneOf({"window", "offscreen", "none"});
   command.option("--screenshot", a->options.screenshot,
                  "PNG of the scene, at the middle of the hold when there is one");
-  command.option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]");
+  command.option("--screenshot-at", a->options.screenshot_time, "simulated time of the screenshot [s]").nonNegative();
   command.option("--video", a->options.video, "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
   command
       .option(

@@ -2,6 +2,7 @@
 #include "apps/common/options/view_options.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/remote/viewer.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa {
 
@@ -12,7 +13,7 @@ void addView(Command app, int& status) {
   auto view = std::make_shared<std::string>();
   auto picture = std::make_shared<PictureArguments>();
   Command command = app.command("view", "Show a run that another process, or another machine, publishes");
-  command.flag("--join", *join, "join the run on the bus (presa run SCENE --bus loopback)").required();
+  command.flag("--join", *join, "join the run on the bus (presa run SCENE --bus loopback); required");
   command.option("SCENE", settings->scene,
                  "scene file to draw, where its meshes lie elsewhere on this machine; it is compared with the run's");
   addBusOptions(command, *bus, "the network that the run is on");
@@ -32,6 +33,9 @@ void addView(Command app, int& status) {
       "Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --bus loopback &  presa view --join --view window");
   command.action([=, &status] {
+    if (!*join)
+      refuse(123, "presa view", "shows the run of another process, so it needs --join",
+             "a scene in a window is presa run SCENE --view window");
     settings->bus = bus->value_or(BusSettings{});
     settings->view = chooseView(*view, true, !settings->screenshot.empty());
     Diagnostics diagnostics;

@@ -22,12 +22,9 @@ constexpr double kTraceRate = 250;  // as `presa run`
 /// End of the scripted hold of the first device [s]; 0: it has none.
 double holdEnd(const Loaded& loaded) {
   if (loaded.devices.empty()) return 0;
-  const auto names = loaded.devices.front()->phases();
-  const auto times = loaded.devices.front()->phaseTimes();
-  const auto hold = std::ranges::find(names, "hold");
-  if (hold == names.end()) return 0;
-  const auto end = static_cast<std::size_t>(hold - names.begin()) + 1;
-  return end < times.size() ? times[end] : 0;
+  const Device& device = *loaded.devices.front();
+  const auto hold = firstSpanOf(PhaseIntent::kHold, device.phaseIntents(), device.phaseTimes());
+  return hold ? hold->end : 0;
 }
 
 /// "0.491", or "0.49 to 0.52" where the bounds do not meet.
@@ -131,8 +128,9 @@ int explainGrasp(Loaded loaded, bool as_json) {
   if (!(end > 0)) {
     Diagnostics diagnostics;
     diagnostics.error(125, {loaded.world->scene.file, 0, 0},
-                      "--grasp needs a device with a scripted phase named hold, found none",
-                      "name a rig with scripted fingers: --rig config/rigs/pinch_cube.xml");
+                      "--grasp needs a device with a scripted phase whose intent is hold, found none",
+                      "say <phase … intent=\"hold\"> in its motion, or name a rig whose motion does: --rig "
+                      "config/rigs/pinch_cube.xml");
     std::fputs(diagnostics.text().c_str(), stderr);
     return kExitBadInput;
   }

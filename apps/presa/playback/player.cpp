@@ -5,6 +5,7 @@
 
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
+#include "apps/common/terminal/job_progress.h"
 #include "apps/presa/playback/recorded_moment.h"
 #include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
@@ -69,10 +70,16 @@ class Player {
   /// Off-screen: draws the one wanted time, or all times for a video.
   void all() {
     if (options_.video.empty()) time_ = options_.screenshot_time < 0 ? moment_.end() : options_.screenshot_time;
-    for (; time_ < moment_.end() && !options_.video.empty() && !terminal::Interruption::came(); time_ += period())
-      step();
+    if (!options_.video.empty()) film();
     time_ = std::min(time_, moment_.end());
     step();
+  }
+  void film() {
+    terminal::JobProgress progress(static_cast<std::size_t>((moment_.end() - time_) / period()) + 1);
+    for (; time_ < moment_.end() && !progress.interrupted(); time_ += period()) {
+      step();
+      progress.done("pictures");
+    }
   }
   void live() {
     std::int64_t last = monotonicNs();

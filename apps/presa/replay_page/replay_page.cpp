@@ -1,13 +1,10 @@
 #include "apps/presa/replay_page/replay_page.h"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/common/number_text.h"
+#include "apps/common/output_place.h"
 #include "apps/common/report/fault_events.h"
 #include "apps/common/report/recording_page.h"
 #include "apps/presa/replay_page/keyframes.h"
@@ -117,17 +114,8 @@ std::string blockOf(const json& data) {
 }  // namespace
 
 void checkPlace(const std::string& page) {
-  const std::filesystem::path folder = std::filesystem::path(page).parent_path();
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (!error && std::filesystem::is_directory(page)) error = std::make_error_code(std::errc::is_a_directory);
-  if (!error) {  // rights alone do not say whether a file can be made: the file system may be read-only
-    std::string probe = ((folder.empty() ? "." : folder) / ".presa-page-XXXXXX").string();
-    const int file = mkstemp(probe.data());
-    if (file < 0) error = {errno, std::generic_category()};
-    if (file >= 0) ::close(file), ::unlink(probe.c_str());
-  }
-  if (error) refuse(126, "--page " + page, "the page cannot be written there", error.message());
+  const std::string trouble = placeTrouble(page);
+  if (!trouble.empty()) refuse(126, "--page " + page, "the page cannot be written there", trouble);
 }
 
 std::string page(const Recording& recording, const RecordedSamples& samples, const std::string& three_js) {

@@ -46,8 +46,8 @@ struct SentenceRule {
   double limit = 0;      ///< for kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
 };
 
-/// Time window of a run. Each bound is a time [s] or the name of a scripted phase, whose start is meant. Empty:
-/// unbounded.
+/// Time window of a run. Each bound is a time [s], or the intent or the name of a scripted phase, whose start is meant.
+/// Empty, or a phase that the motion lacks: unbounded.
 struct Window {
   std::string from, to;
 };
@@ -60,8 +60,8 @@ struct Study {
   double duration = 0;  ///< simulated [s]; 0: to the end of the script
   std::uint64_t seed = 1;
   int repeats = 5;  ///< timed runs of each setting
-  Window compared{"", "loosen"};
-  Window steady{"hold", "loosen"};
+  Window compared{"", "release"};
+  Window steady{"hold", "release"};
   /// The reference of the errors. kRefined: a sequence of finer runs; kAnalytic: the analytic motion of free bodies
   /// without contact; kNone: only metrics that are zero in a perfect run (a pile is chaotic: no run can be its
   /// reference).

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kGridNs = 1'000'000;
 
-/// Time of a window's bound [s]: a number, or the start of a scripted phase, or `fallback`.
+/// Time of a window's bound [s]: a number, or the start of a scripted phase (its intent, or its name), or `fallback`.
 double edge(StudyRun& run, const std::string& text, double fallback) {
   if (text.empty()) return fallback;
   double value = 0;
@@ -129,7 +129,7 @@ class Watcher {
     double force = 0, time = 0;
     int count = 0;
     for (std::size_t f = 0; f < ripples_.size(); ++f) {
-      const SlipOnset& slip = run_.monitor().fingers()[f].loosening_slip;
+      const SlipOnset& slip = run_.monitor().fingers()[f].release_slip;
       if (slip.time < 0) continue;
       force += slip.normal_force;
       time += slip.time;

@@ -115,6 +115,7 @@ int runCases(const RunnerOptions& options, std::vector<Case> all) {
     list(cases);
     return kExitOk;
   }
+  for (const Case& c : cases) sceneFile(c.scene);  // E615 says now what would fail every trial
   const std::vector<Job> jobs = jobsOf(cases, options.quick);
   terminal::JobProgress progress(jobs.size());
   JobOptions job_options;

@@ -42,8 +42,8 @@ ForceParts partsOf(const Vec3& f_H_W, const FingerContact& contact) noexcept {
 }
 
 struct Monitor::Impl {
-  Impl(std::shared_ptr<const World> shared_world, double duration, double loosen, double trace_rate)
-      : world(std::move(shared_world)), loosen_time(loosen), reaction(world->scene) {
+  Impl(std::shared_ptr<const World> shared_world, double duration, double release, double trace_rate)
+      : world(std::move(shared_world)), release_time(release), reaction(world->scene) {
     const std::vector<Body>& bodies = world->scene.bodies;
     const std::size_t finger_count = world->scene.devices.size();
     fingers.resize(finger_count);
@@ -90,7 +90,7 @@ struct Monitor::Impl {
   void extendRanges(const ContactExchange& contact, const ForceCommand& command, bool first) noexcept;
 
   std::shared_ptr<const World> world;
-  double loosen_time;
+  double release_time;
   ActionReaction reaction;
   std::uint64_t solver_fallbacks = 0;
   EnergyCreated energy_created;
@@ -98,7 +98,7 @@ struct Monitor::Impl {
   double far_lag = 0;
   std::uint64_t stride = 0;  ///< haptic ticks per trace sample; 0: no trace
   std::uint64_t objects_version = 0;
-  double simulated_time = 0;
+  double simulated_time = 0, stopped_at = -1;
   std::uint32_t object_faults = 0;
   double object_fault_time = -1;
   std::uint32_t pop_through = 0, coverage_lost = 0;
@@ -120,16 +120,19 @@ struct Monitor::Impl {
 void Monitor::Impl::sumFinger(std::size_t f, const FingerContact& now, const Tick& tick) noexcept {
   FingerSummary& sum = fingers[f];
   sum.seconds[static_cast<std::size_t>(now.mode)] += tick.period;
-  if (touches(now)) {
+  if (touches(now) && stopped_at < 0) {
     sum.max_normal_force = std::max(sum.max_normal_force, now.normal_force);
     force_sum[f] += now.normal_force;
     sum.mean_normal_force = force_sum[f] / static_cast<double>(++ticks_in_contact[f]);
+  }
+  if (touches(now)) {
     if (now.body >= 0 && static_cast<std::size_t>(now.body) < fingers_on.size()) {
       ++fingers_on[static_cast<std::size_t>(now.body)];
     }
   }
   const FingerContact& before = previous[f];
-  if (now.mode == ContactMode::kSlip && before.mode == ContactMode::kStick && now.body == before.body) {
+  if (now.mode == ContactMode::kSlip && before.mode == ContactMode::kStick && now.body == before.body &&
+      stopped_at < 0) {
     noteSlip(f, now, tick.time);
   }
   previous[f] = now;
@@ -146,7 +149,7 @@ void Monitor::Impl::noteSlip(std::size_t f, const FingerContact& now, double tim
   FingerSummary& sum = fingers[f];
   ++sum.slip_onsets;
   if (slip_onsets[f].size() < kMaxSlipOnsets) slip_onsets[f].push_back(onset);
-  if (time >= loosen_time && sum.loosening_slip.time < 0) sum.loosening_slip = onset;
+  if (time >= release_time && sum.release_slip.time < 0) sum.release_slip = onset;
 }
 
 void Monitor::Impl::follow(std::size_t i, const ObjectState& state, double time) noexcept {
@@ -164,7 +167,7 @@ void Monitor::Impl::noteGrasp(std::size_t i, double time) noexcept {
   }
   if (object.lost_at < 0 && fingers_on[i] == 0) {
     object.lost_at = time;
-    object.dropped = time < loosen_time;
+    object.dropped = time < release_time;  // false for NaN
   }
 }
 
@@ -188,6 +191,7 @@ void Monitor::Impl::sumObjects(const Tick& tick, const ContactExchange& contact,
     objects[i].grasped = true;
     grasped.push_back(i);
   }
+  if (stopped_at >= 0) return;
   for (const std::size_t i : grasped) noteGrasp(i, tick.time);
 }
 
@@ -226,8 +230,8 @@ void Monitor::Impl::extendRanges(const ContactExchange& contact, const ForceComm
   }
 }
 
-Monitor::Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate)
-    : HapticObserver("monitor"), impl_(std::make_unique<Impl>(std::move(world), duration, loosen_time, trace_rate)) {}
+Monitor::Monitor(std::shared_ptr<const World> world, double duration, double release_time, double trace_rate)
+    : HapticObserver("monitor"), impl_(std::make_unique<Impl>(std::move(world), duration, release_time, trace_rate)) {}
 
 Monitor::~Monitor() = default;
 
@@ -258,6 +262,9 @@ void Monitor::Impl::observe(const HapticSample& sample) noexcept {
   const auto& [tick, device, contact, command, state, version] = sample;
   const bool fresh = state != nullptr && version != objects_version;
   objects_version = version;
+  if (device.stop_requested && stopped_at < 0) stopped_at = tick.time;
+  for (std::size_t f = 0; f < std::min(fingers.size(), command.f_H_W.size()); ++f)
+    fingers[f].max_commanded_force = std::max(fingers[f].max_commanded_force, command.f_H_W[f].norm());
   addToHash(device, contact, fresh ? state : nullptr);
   sumFingers(tick, contact, state, fresh);
   if (fresh && state->faults != 0) {
@@ -304,6 +311,7 @@ const EnergyCreated& Monitor::energyCreated() const noexcept { return impl_->ene
 std::uint64_t Monitor::stoppedShort() const noexcept { return impl_->stopped_short; }
 std::uint64_t Monitor::tooManyHeld() const noexcept { return impl_->too_many_held; }
 double Monitor::farLag() const noexcept { return impl_->far_lag; }
+double Monitor::stoppedAt() const noexcept { return impl_->stopped_at; }
 double Monitor::simulatedTime() const noexcept { return impl_->simulated_time; }
 
 }  // namespace presa

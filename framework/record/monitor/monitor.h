@@ -24,16 +24,19 @@ struct SlipOnset {
 };
 inline constexpr std::size_t kMaxSlipOnsets = 64;  ///< stored per finger; further ones are only counted
 
-/// Contact summary of one finger over a run.
+/// Contact summary of one finger over a run. Forces are those rendered, which the output stage limits before the device
+/// gets them. While forces fade after a stop, the hand closes on what no longer pushes back: then rendered forces, slips
+/// and losses say nothing about the grasp and do not count.
 struct FingerSummary {
   std::array<double, 3> seconds{};  ///< by ContactMode: none, stick, slip
   double max_normal_force = 0;      ///< [N]
   double mean_normal_force = 0;     ///< over the ticks in contact [N]
+  double max_commanded_force = 0;   ///< magnitude of what the device was sent, in all ticks [N]
   std::uint32_t pop_through = 0;    ///< times that the fingertip passed through a surface
   double first_pop_through = -1;    ///< [s]; -1: never
   std::uint32_t leaps = 0;          ///< ticks in which the proxy left a fold (ContactExchange::leaps_by_finger)
   std::uint64_t slip_onsets = 0;    ///< changes from stick to slip
-  SlipOnset loosening_slip;         ///< first slip onset at or after loosen_time
+  SlipOnset release_slip;           ///< first slip onset at or after release_time
   ActionReaction::Result reaction;  ///< impulse given to free bodies against impulse rendered
 };
 
@@ -44,7 +47,7 @@ struct ObjectSummary {
   Vec3 start = Vec3::Zero(), highest = Vec3::Zero(), final = Vec3::Zero();  ///< body origins [m]
   bool grasped = false;                                                     ///< at least two fingers held it at once
   double lost_at = -1;    ///< first tick without contact after a grasp, not regained within kBounceTime [s]; -1: never
-  bool dropped = false;   ///< lost before the scripted loosening began (any loss when there is no script)
+  bool dropped = false;   ///< lost before the motion meant to let go
   double peak_speed = 0;  ///< [m/s]
 };
 
@@ -86,9 +89,9 @@ struct TraceSample {
 /// results after the executor has stopped.
 class Monitor final : public HapticObserver {
  public:
-  /// `duration` of the run [s] bounds the trace. `loosen_time`: start of the scripted release [s], or infinity.
-  /// `trace_rate` [Hz]; 0: no trace.
-  Monitor(std::shared_ptr<const World> world, double duration, double loosen_time, double trace_rate);
+  /// `duration` of the run [s] bounds the trace. `release_time`: when the motion lets go on purpose [s]; infinity: never,
+  /// so that every loss is a drop; NaN: nobody says, so that none is. `trace_rate` [Hz]; 0: no trace.
+  Monitor(std::shared_ptr<const World> world, double duration, double release_time, double trace_rate);
   ~Monitor() override;
   /// Without dynamics, bodies keep their start poses. An object state is summed and hashed when its version changes.
   void observe(const HapticSample& sample) noexcept override;
@@ -111,6 +114,7 @@ class Monitor final : public HapticObserver {
   std::uint32_t coverageLost() const noexcept;
   double firstCoverageLost() const noexcept;
   double simulatedTime() const noexcept;
+  double stoppedAt() const noexcept;  ///< first tick of a stop before the end [s]; -1: none
   /// ObjectFault bits that occurred, and the time of the first [s]; -1: none.
   std::uint32_t objectFaults() const noexcept;
   double objectFaultTime() const noexcept;

@@ -1,7 +1,11 @@
 #include "framework/plugin/plugin_loader.h"
+#include "framework/record/mesh_sums.h"
 #include "framework/record/record_plugin.h"
+#include "framework/record/record_plugin/inspection.h"
+#include "framework/record/record_plugin/open_file.h"
 #include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/recorder.h"
+#include "framework/record/record_plugin/recording_file.h"
 #include "framework/record/record_plugin/samples.h"
 
 namespace {
@@ -19,3 +23,14 @@ const presa::RecordPlugin kPlugin{
 }  // namespace
 
 const presa::RecordPlugin* presaRecordPlugin() { return &kPlugin; }
+
+void presaRecordedMeshSums(const std::string& recording, std::string& sums) {
+  using namespace presa::record;
+  const h5::Library library;
+  const OpenedFile opened = openFile(recording);
+  if (!h5::hasAttribute(opened.handle, kMeshSumsAttribute)) return;
+  presa::Diagnostics findings;
+  Inspection look(recording, opened.handle, opened.bytes, findings);
+  sums = look.text("", kMeshSumsAttribute);
+  if (findings.hasErrors()) throw presa::InputError(std::move(findings));
+}

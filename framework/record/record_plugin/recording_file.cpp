@@ -14,6 +14,7 @@
 
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/record/mesh_sums.h"
 #include "framework/record/record_plugin/seal.h"
 
 namespace presa::record {
@@ -154,6 +155,8 @@ void RecordingFile::describe(const World& world, const RunOptions& options) {
     const auto group = static_cast<RateGroup>(g);
     h5::writeAttribute(file_, std::string("rate_") + toString(group) + "_hz", rates.rate(group));
   }
+  if (const std::string sums = meshSumsOf(world.scene); !sums.empty())
+    h5::writeAttribute(file_, kMeshSumsAttribute, sums);
   h5::writeText(file_, "scene_xml", world.scene.resolved_xml);
   h5::writeText(file_, "rig_xml", world.rig.resolved_xml);
   std::vector<std::string> names;

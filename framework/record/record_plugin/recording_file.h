@@ -24,6 +24,7 @@ inline constexpr std::size_t kBlockRows = 1024;
 Table scheduleTable();
 /// Attribute of a schedule table, since format 7: the names of ScheduleInputs, separated by blanks.
 inline constexpr const char* kInputsAttribute = "inputs";
+inline constexpr const char* kMeshSumsAttribute = "mesh_sums";  ///< of the root, where the scene names meshes
 
 /// A recording being written: tables of named columns that only grow and are flushed together. After a kill at any
 /// moment the file is readable up to its last flush. For this reason nothing is compressed (a compressed chunk moves

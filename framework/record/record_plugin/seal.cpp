@@ -11,10 +11,12 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // maximum size of an attribute
 
 /// All attributes that a run writes, except `complete`, which is written after the checksum.
-const char* const kRootAttributes[] = {"format",         "format_version",    "dropped",          "program_version",
-                                       "start_utc",      "scene_name",        "scene_file",       "rig_file",
-                                       "seed",           "force_share",       "realtime",         "haptic_period_s",
-                                       "rate_haptic_hz", "rate_collision_hz", "rate_dynamics_hz", "rate_view_hz"};
+const char* const kRootAttributes[] = {"format",          "format_version",    "dropped",
+                                       "program_version", "start_utc",         "scene_name",
+                                       "scene_file",      "rig_file",          "seed",
+                                       "force_share",     "realtime",          "haptic_period_s",
+                                       "rate_haptic_hz",  "rate_collision_hz", "rate_dynamics_hz",
+                                       "rate_view_hz",    kMeshSumsAttribute};
 const char* const kTexts[] = {"scene_xml", "rig_xml", "body_names"};
 const char* const kTableAttributes[] = {"finger", "body",         "fingertip_radius_m", "columns",
                                         "units",  "descriptions", kInputsAttribute};

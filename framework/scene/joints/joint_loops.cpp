@@ -12,7 +12,7 @@
 namespace presa {
 namespace {
 
-enum LoopCode { kLockedLoop = 244 };
+enum LoopCode { kLockedLoop = 233 };
 
 using Row = Eigen::Matrix<double, 1, 6>;
 constexpr double kRank = 1e-6;  // relative singular value that counts as zero

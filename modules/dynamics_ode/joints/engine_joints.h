@@ -9,7 +9,7 @@
 namespace presa::ode {
 
 /// The joints of a scene as ODE has them, for its own solvers: fixed, hinge, slider and ball, with stops, and a motor or
-/// friction. The methods to compare with; E246 refuses what they lack.
+/// friction. The methods to compare with; E235 refuses what they lack.
 class EngineJoints {
  public:
   /// Owns joints in `ode_world`: destroy it before `ode_world`.

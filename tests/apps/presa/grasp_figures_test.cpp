@@ -27,7 +27,9 @@ struct Grasp {
   explicit Grasp(double wobble = 0, double turn = 0.5) {
     for (int i = 0; i < 6000; ++i) showTick(i, wobble, turn);
     result.world = feed.world;
-    result.phases = {{"lift", 0, 1}, {"hold", 1, 4}, {"loosen", 4, 6}};
+    result.phases = {{"lift", 0, 1, PhaseIntent::kLift},
+                     {"hold", 1, 4, PhaseIntent::kHold},
+                     {"loosen", 4, 6, PhaseIntent::kRelease}};
     takeMonitor(feed.monitor, result);
   }
 
@@ -88,10 +90,10 @@ TEST(GraspFigures, OffsetRangeShowsCreepOnTheObject) {
   EXPECT_NEAR(graspFigures(grasp.result)->fingers[0].offset_range, 2e-5, 1e-15);
 }
 
-// Without the phases that define them there are no figures, and the summary has no such key.
-TEST(GraspFigures, NeedTheirPhases) {
+// Without a phase that holds there are no figures, and the summary has no such key.
+TEST(GraspFigures, NeedAHold) {
   Grasp grasp;
-  grasp.result.phases.pop_back();
+  grasp.result.phases.erase(grasp.result.phases.begin() + 1);
   EXPECT_FALSE(graspFigures(grasp.result));
   EXPECT_FALSE(nlohmann::json::parse(summaryJson(grasp.result)).contains("grasp"));
 }
@@ -216,6 +218,67 @@ TEST(Verdict, DropOrFaultIsBad) {
   grasp.result.faults.clear();
   grasp.result.objects[0].summary.dropped = true;
   EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kBad);
+}
+
+/// The sentences of a verdict, one a line.
+std::string detailsOf(const RunResult& result) {
+  std::string all;
+  for (const std::string& one : verdictOf(result).details) all += one + "\n";
+  return all;
+}
+
+// A phase may have any name: what it is for decides.
+TEST(Verdict, GoesByIntentsAndKnowsNoName) {
+  Grasp grasp(0, 0);
+  const Verdict before = verdictOf(grasp.result);
+  for (RunResult::Phase& phase : grasp.result.phases) phase.name = "x";
+  EXPECT_EQ(verdictOf(grasp.result).headline, before.headline);
+  EXPECT_EQ(verdictOf(grasp.result).details, before.details);
+  EXPECT_NE(before.headline.find("cube lifted by 100.0 mm, held in stick for 3.00 of 3.00 s"), std::string::npos)
+      << before.headline;
+  grasp.result.phases[0].intent = PhaseIntent::kNone;
+  EXPECT_EQ(verdictOf(grasp.result).headline.find("lifted"), std::string::npos);
+}
+
+// Only a motion that says when it lets go can tell a drop from a release; of another one is told what happened, and no
+// more.
+TEST(Verdict, IsNeutralAboutAMotionWithoutIntents) {
+  Grasp grasp(0, 0);
+  for (RunResult::Phase& phase : grasp.result.phases) phase.intent = PhaseIntent::kNone;
+  grasp.result.objects[0].summary.lost_at = 5.5;
+  EXPECT_FALSE(graspFigures(grasp.result));
+  EXPECT_EQ(verdictOf(grasp.result).outcome, Verdict::Outcome::kNeutral);
+  EXPECT_NE(detailsOf(grasp.result).find("cube: Out of the fingers from 5.500 s on."), std::string::npos)
+      << detailsOf(grasp.result);
+  EXPECT_NE(detailsOf(grasp.result).find("does not say what its phases are for"), std::string::npos);
+  grasp.result.phases.clear();  // a person
+  EXPECT_EQ(detailsOf(grasp.result).find("phases"), std::string::npos) << detailsOf(grasp.result);
+}
+
+// A motion that never lets go has figures of its hold, and no sentence about slips of a release.
+TEST(Verdict, JudgesAHoldWithoutARelease) {
+  Grasp grasp(0, 0);
+  grasp.result.phases.back().intent = PhaseIntent::kNone;
+  const auto figures = graspFigures(grasp.result);
+  ASSERT_TRUE(figures);
+  EXPECT_TRUE(std::isinf(figures->release_begin));
+  EXPECT_NEAR(figures->held_in_stick, 3.0, 1e-12);
+  EXPECT_EQ(detailsOf(grasp.result).find("lip"), std::string::npos) << detailsOf(grasp.result);
+  EXPECT_TRUE(nlohmann::json::parse(summaryJson(grasp.result)).at("grasp").at("release_s").is_null());
+}
+
+// After Ctrl-C the hand closes on what fades: what was rendered then is in no figure and no plot, what the device was
+// sent is, and the report marks the stop.
+TEST(Verdict, TellsWhenTheUserStopped) {
+  Grasp grasp(0, 0);
+  grasp.result.stopped_at = 3.2;
+  grasp.result.interrupted = true;
+  EXPECT_NE(detailsOf(grasp.result).find("Stopped by you at 3.200 s; forces faded until 6.000 s."), std::string::npos)
+      << detailsOf(grasp.result);
+  EXPECT_EQ(detailsOf(grasp.result).find("release began"), std::string::npos) << "it begins at 4 s";
+  EXPECT_EQ(graspFigures(grasp.result)->hold_end, 3.2);
+  EXPECT_EQ(nlohmann::json::parse(summaryJson(grasp.result)).at("stopped_s"), 3.2);
+  EXPECT_NE(reportHtml(grasp.result).find("stopped by you"), std::string::npos);
 }
 
 // An impulse on the object that differs from the felt one by over 1 % is told, with finger, size and time.

@@ -1,5 +1,6 @@
 // Playback of a recording: its states, and its window under a separate X server.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -125,6 +126,19 @@ TEST(Video, GivesFfmpegThirtyPicturesASecond) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(std::filesystem::file_size(file), 3u * 1280 * 720 * 3);
   std::filesystem::remove(file);
+}
+
+// Ctrl-C at a terminal goes to the whole group of processes: ffmpeg is in another one, and ends when it has every frame.
+TEST(Video, EncodesInAGroupOfItsOwn) {
+  const std::string file = test::scratch("group.txt");
+  const test::Outcome outcome = filmWith(
+      "#!/bin/sh\nfor last; do :; done\n/bin/cat > /dev/null\nread all < /proc/$$/stat\nset -- $all\necho $5 > "
+      "\"$last\"\n",
+      file);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  int group = 0;
+  ASSERT_TRUE(std::ifstream(file) >> group);
+  EXPECT_NE(group, getpgrp());
 }
 
 TEST(Video, WithoutFfmpegNothingIsRun) {

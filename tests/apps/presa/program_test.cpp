@@ -15,7 +15,7 @@ using test::presa;
 using test::scratch;
 using test::source;
 
-const std::string kCube = source("config/scenes/cube.xml");
+const std::string kCubeScene = source("config/scenes/cube.xml");
 
 nlohmann::json readJson(const std::string& file) {
   std::ifstream in(file);
@@ -25,7 +25,7 @@ nlohmann::json readJson(const std::string& file) {
 // The summary has the keys of the manual, on which other programs rely.
 TEST(Run, WritesTheSummaryThatIsPromised) {
   const std::string file = scratch("summary.json");
-  const auto outcome = presa("run " + kCube + " --lockstep --for 10 --quiet --summary " + file);
+  const auto outcome = presa("run " + kCubeScene + " --lockstep --for 10 --quiet --summary " + file);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto summary = readJson(file);
   EXPECT_DOUBLE_EQ(summary.at("duration_s"), 10);
@@ -43,10 +43,10 @@ TEST(Run, WritesTheSummaryThatIsPromised) {
 
 // ./dev run builds the listed plug-ins first: the list is complete, and making it loads none of them.
 TEST(Run, NamesThePlugInsThatItWouldLoad) {
-  const auto plain = presa("run " + kCube + " --view none --plug-ins");
+  const auto plain = presa("run " + kCubeScene + " --view none --plug-ins");
   EXPECT_EQ(plain.status, 0) << plain.err;
   EXPECT_EQ(plain.out, "dynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nscripted\n");
-  const auto recorded = presa("run " + kCube + " --view offscreen --record never.h5 --plug-ins");
+  const auto recorded = presa("run " + kCubeScene + " --view offscreen --record never.h5 --plug-ins");
   EXPECT_EQ(recorded.out,
             "checksum\ndynamics_ode\nfriction_cone\ngod_object\nhaptics_proxy\nrecord\nscripted\nview_osg\n");
   EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
@@ -54,7 +54,7 @@ TEST(Run, NamesThePlugInsThatItWouldLoad) {
 
 // Very high rates, used for references, are allowed in virtual time only.
 TEST(Run, RefusesRatesThatNoClockKeeps) {
-  const std::string fast = "run " + kCube + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
+  const std::string fast = "run " + kCubeScene + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";
   const auto refused = presa(fast + "--realtime");
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("error[E408]"), std::string::npos) << refused.err;
@@ -82,7 +82,7 @@ TEST(Replay, FindsEveryForceOfARecordingAgainBitForBit) {
 // recording is reported as damaged; in a format without checksums, as different.
 TEST(Replay, NoticesADifferenceAndTellsItFromDamage) {
   const std::string file = scratch("different.h5");
-  ASSERT_EQ(presa("run " + kCube + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
+  ASSERT_EQ(presa("run " + kCubeScene + " --lockstep --for 2 --quiet --overwrite --record " + file).status, 0);
   std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
   const std::string all((std::istreambuf_iterator<char>(bytes)), {});
   const auto write = [&](std::size_t at, const std::string& text) {
@@ -117,7 +117,7 @@ TEST(Explain, MapsOnlyWhatTheSceneCallsFor) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out).at("libraries").dump();
   };
-  const std::string bare = libraries(fixed), cube = libraries(kCube),
+  const std::string bare = libraries(fixed), cube = libraries(kCubeScene),
                     mesh = libraries(source("config/scenes/pinch_and_lift.xml"));
   for (const char* absent : {"libode", "libfcl", "libosg", "libhdf5", "libassimp"}) {
     EXPECT_EQ(bare.find(absent), std::string::npos) << absent;
@@ -164,12 +164,12 @@ TEST(BadInput, IsRefusedWithAPlaceAndNothingIsWritten) {
       {"/nowhere/scene.xml", "error[E"},
       {garbage, garbage + ":1:"},
       {bad_mesh, bad_mesh + ":3:"},
-      {kCube + " --set body/cub/physics/mass=1", "did you mean"},
-      {kCube + " --set body/cube/physics/mass=0", "error[E"},
-      {kCube + " --set body/cube/physics/mass=-1 --set rates/dynamics=300", "error[E"},
-      {kCube + " --set nonsense", "PATH=VALUE"},
-      {kCube + " --rig /nowhere/rig.xml", "error[E"},
-      {kCube + " --view none --screenshot " + scratch("x.png"), "error[E121]"},
+      {kCubeScene + " --set body/cub/physics/mass=1", "did you mean"},
+      {kCubeScene + " --set body/cube/physics/mass=0", "error[E"},
+      {kCubeScene + " --set body/cube/physics/mass=-1 --set rates/dynamics=300", "error[E"},
+      {kCubeScene + " --set nonsense", "PATH=VALUE"},
+      {kCubeScene + " --rig /nowhere/rig.xml", "error[E"},
+      {kCubeScene + " --view none --screenshot " + scratch("x.png"), "error[E121]"},
   };
   for (const Case& bad : cases) {
     const auto outcome = presa("run " + bad.arguments + " --lockstep --summary " + summary);
@@ -193,17 +193,38 @@ TEST(Check, SaysThatEveryShippedSceneIsGood) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// Another mesh gives other forces: a replay with it would blame the program. The recording holds the SHA-256 of each mesh.
+TEST(Replay, RefusesAMeshThatIsNotTheOneOfTheRun) {
+  const std::string mesh = scratch("touched.obj"), scene = scratch("touched.xml"), file = scratch("touched.h5");
+  const auto copy = std::filesystem::copy_options::overwrite_existing;
+  std::filesystem::copy_file(source("config/meshes/cup.obj"), mesh, copy);
+  std::ofstream(scene) << R"(<scene version="1.0" name="m" rig=")" << source("config/rigs/hover.xml") << R"(">
+    <world gravity="0 0 0"/><materials><material name="m" stiffness="500"/></materials><body name="cup" fixed="true">
+    <haptic><mesh file="touched.obj"/></haptic></body>
+    <devices><device role="thumb"/><device role="index"/></devices></scene>)";
+  const auto run = presa("run " + scene + " --lockstep --for 0.2 --quiet --overwrite --record " + file);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto same = presa("replay " + file + " --verify");
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  std::ofstream(mesh, std::ios::app) << "# a comment changes no force, but the file is another\n";
+  const auto other = presa("replay " + file + " --verify");
+  EXPECT_EQ(other.status, 2) << other.out;
+  EXPECT_NE(other.err.find("error[E679]: the mesh '"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("touched.obj' is not the one of the run: SHA-256 "), std::string::npos) << other.err;
+}
+
 // Ctrl-C in the middle of a real-time grasp: status 130, forces faded to zero in the recording, file complete.
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");
   const auto outcome =
       test::shell("timeout --foreground --preserve-status -s INT 2.6 " + std::string(PRESA_BINARY_DIR) +
-                  "/bin/presa run " + kCube + " --realtime --view none --quiet --overwrite --record " + file);
+                  "/bin/presa run " + kCubeScene + " --realtime --view none --quiet --overwrite --record " + file);
   ASSERT_EQ(outcome.status, 130) << outcome.err;
   const Recording recording = recordPlugin().read(file);
   ASSERT_GT(recording.command.size(), 100u);
   EXPECT_TRUE(recording.complete);
   EXPECT_TRUE(recording.device.back().stop_requested);
+  EXPECT_NE(presa("replay " + file).out.find("stopped by the user at "), std::string::npos);
   for (int f = 0; f < 2; ++f) EXPECT_EQ(recording.command.back().f_H_W[static_cast<std::size_t>(f)].norm(), 0);
 }
 

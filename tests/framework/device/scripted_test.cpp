@@ -94,8 +94,8 @@ constexpr const char* kPinch = R"(<motion version="1.0" name="pinch">
   <grasp point="0 0 0.04" axis="1 0 0" width="0.07" open="0.03"/>
   <phase name="reach" duration="1" open="0"/>
   <phase name="squeeze" duration="0.5" grip="6"/>
-  <phase name="lift" duration="1" move="0 0 0.1"/>
-  <phase name="release" duration="1" grip="0" open="0.02"/>
+  <phase name="up" intent="lift" duration="1" move="0 0 0.1"/>
+  <phase name="loosen" intent="release" duration="1" grip="0" open="0.02"/>
 </motion>)";
 
 // Thumb and index mirror each other; at the end of the reach each fingertip's surface is on the object's.
@@ -115,7 +115,9 @@ TEST(PhasedMotion, ReachesTheFacesFromBothSides) {
   EXPECT_NEAR(index->at(1.25).grip, 3, 1e-12);  // straight ramp
   EXPECT_EQ(index->at(1.25).inward_W, Vec3(-1, 0, 0));
   EXPECT_NEAR(index->at(2.5).p_WT.z(), 0.14, 1e-12);
-  EXPECT_EQ(index->phase_names, (std::vector<std::string>{"reach", "squeeze", "lift", "release"}));
+  EXPECT_EQ(index->phase_names, (std::vector<std::string>{"reach", "squeeze", "up", "loosen"}));
+  using enum PhaseIntent;
+  EXPECT_EQ(index->phase_intents, (std::vector{kNone, kNone, kLift, kRelease}));
   EXPECT_EQ(index->at(99).phase, 3);
 }
 
@@ -144,6 +146,38 @@ TEST(KeyframeMotion, PassesThroughItsKeyframes) {
   EXPECT_NEAR(motion->at(0.5).force_W.x(), 1, 1e-12);
   EXPECT_EQ(motion->at(5).p_WT, Vec3(-0.04, 0, 0.15));
   EXPECT_EQ(motion->phase_names, (std::vector<std::string>{"reach", "hold"}));
+}
+
+// Intents of keyframes are a column beside the phases'; another word is refused where it stands.
+TEST(KeyframeMotion, ReadsIntents) {
+  const std::string head = "time_s,role,x_m,y_m,z_m,phase,intent\n0,thumb,0,0,0,down,\n";
+  Diagnostics diagnostics;
+  const auto motion =
+      readKeyframeMotion(writeFile("intents.csv", head + "1,thumb,0,0,0,press,hold\n2,thumb,0,0,0,off,release\n"),
+                         {"thumb", -1, 0.008}, diagnostics);
+  ASSERT_TRUE(motion) << diagnostics.text();
+  using enum PhaseIntent;
+  EXPECT_EQ(motion->phase_intents, (std::vector{kNone, kHold, kRelease}));
+  const std::string file = writeFile("word.csv", head + "1,thumb,0,0,0,press,hodl\n");
+  readKeyframeMotion(file, {"thumb", -1, 0.008}, diagnostics);
+  EXPECT_NE(diagnostics.text().find(file + ":3:21: error[E429]: 'hodl' is not an intent"), std::string::npos)
+      << diagnostics.text();
+  Diagnostics without;
+  readKeyframeMotion(writeFile("none.csv", "time_s,role,x_m,y_m,z_m,intent\n0,thumb,0,0,0,hold\n"),
+                     {"thumb", -1, 0.008}, without);
+  EXPECT_NE(without.text().find("error[E422]: column 'phase' is missing"), std::string::npos) << without.text();
+}
+
+// Phases in a row that have one intent are one span; the first such span counts.
+TEST(PhaseIntent, SpansTheFirstPhasesInARow) {
+  using enum PhaseIntent;
+  const std::vector<double> times{0, 1, 3, 4, 6, 7};
+  const auto span = firstSpanOf(kHold, {kNone, kHold, kHold, kRelease, kHold}, times);
+  ASSERT_TRUE(span);
+  EXPECT_EQ(span->begin, 1);
+  EXPECT_EQ(span->end, 4);
+  EXPECT_FALSE(firstSpanOf(kLift, {kNone, kHold, kHold, kRelease, kHold}, times));
+  EXPECT_FALSE(firstSpanOf(kHold, {}, times));
 }
 
 // Orientations: at the keyframes, the shorter way between them (q and -q are one), at the rate that is the derivative.

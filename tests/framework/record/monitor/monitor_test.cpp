@@ -108,7 +108,7 @@ TEST(Monitor, FingersOnDifferentBodiesGraspNothing) {
 }
 
 // A loss after the scripted release is intended; a loss before it is a failure of the grasp.
-TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
+TEST(Monitor, LossCountsAsADropOnlyBeforeTheRelease) {
   for (const bool early : {true, false}) {
     Feed feed(1, 0.100);
     feed.touch(0, ContactMode::kStick);
@@ -124,6 +124,44 @@ TEST(Monitor, LossCountsAsADropOnlyBeforeTheLoosening) {
     EXPECT_DOUBLE_EQ(cube.lost_at, early ? 0.099 : 0.101);
     EXPECT_EQ(cube.dropped, early);
   }
+}
+
+// A motion that never lets go drops whatever it loses; of one that says nothing, no loss is a drop.
+TEST(Monitor, OnlyAMotionWithIntentsDrops) {
+  for (const bool said : {true, false}) {
+    Feed feed(1, said ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kStick);
+    feed.ticks(100);
+    for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kNone);
+    feed.ticks(100);
+    EXPECT_DOUBLE_EQ(feed.monitor.objects()[kCube].lost_at, 0.1);
+    EXPECT_EQ(feed.monitor.objects()[kCube].dropped, said);
+  }
+}
+
+// While forces fade after a stop, the hand closes on what no longer pushes back: 33 N rendered then, and the loss, say
+// nothing about the grasp. What the device was sent counts in every tick.
+TEST(Monitor, CountsWhatWasRenderedUntilAStopOnly) {
+  Feed feed(1, std::numeric_limits<double>::infinity());
+  for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kStick, 6);
+  feed.command.f_H_W[0] = Vec3(0, 0, 6);
+  feed.ticks(100);
+  EXPECT_EQ(feed.monitor.stoppedAt(), -1);
+  feed.device.stop_requested = true;
+  for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kStick, 33);
+  feed.command.f_H_W[0] = Vec3(0, 7, 0);
+  feed.ticks(50);
+  for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kSlip, 33);
+  feed.tick();
+  for (std::size_t f = 0; f < 2; ++f) feed.touch(f, ContactMode::kNone);
+  feed.ticks(50);
+  const FingerSummary& thumb = feed.monitor.fingers()[0];
+  EXPECT_DOUBLE_EQ(feed.monitor.stoppedAt(), 0.1);
+  EXPECT_EQ(thumb.max_normal_force, 6);
+  EXPECT_DOUBLE_EQ(thumb.mean_normal_force, 6);
+  EXPECT_EQ(thumb.max_commanded_force, 7);
+  EXPECT_EQ(thumb.slip_onsets, 0u);
+  EXPECT_LT(feed.monitor.objects()[kCube].lost_at, 0);
 }
 
 // A short bounce after closing is no loss; a longer interruption is one, from its first tick.
@@ -194,18 +232,18 @@ TEST(Monitor, SlipOnsetIsLatchedAtHapticRate) {
   ASSERT_EQ(slips.size(), 2u);
   EXPECT_DOUBLE_EQ(slips[0].time, 0.007);
   EXPECT_EQ(slips[0].last_stick_normal_force, 3.0);
-  const SlipOnset& loosening = feed.monitor.fingers()[1].loosening_slip;
-  EXPECT_DOUBLE_EQ(loosening.time, 0.031);
-  EXPECT_EQ(loosening.body, kCube);
-  EXPECT_EQ(loosening.normal_force, 1.20);
-  EXPECT_DOUBLE_EQ(loosening.tangential_force, 0.72);
-  EXPECT_EQ(loosening.last_stick_normal_force, 1.25);
-  EXPECT_DOUBLE_EQ(loosening.last_stick_tangential_force, 0.98);
+  const SlipOnset& release = feed.monitor.fingers()[1].release_slip;
+  EXPECT_DOUBLE_EQ(release.time, 0.031);
+  EXPECT_EQ(release.body, kCube);
+  EXPECT_EQ(release.normal_force, 1.20);
+  EXPECT_DOUBLE_EQ(release.tangential_force, 0.72);
+  EXPECT_EQ(release.last_stick_normal_force, 1.25);
+  EXPECT_DOUBLE_EQ(release.last_stick_tangential_force, 0.98);
   EXPECT_TRUE(feed.monitor.slipOnsets(0).empty());
 }
 
 // Early chatter fills the list of onsets; the first slip after the loosening is kept all the same.
-TEST(Monitor, LooseningSlipSurvivesAFullList) {
+TEST(Monitor, ReleaseSlipSurvivesAFullList) {
   Feed feed(1, 0.300);
   for (int i = 0; i < 300; ++i) {
     feed.touch(0, i % 2 == 0 ? ContactMode::kStick : ContactMode::kSlip);
@@ -216,8 +254,8 @@ TEST(Monitor, LooseningSlipSurvivesAFullList) {
   feed.touch(0, ContactMode::kSlip, 1.5);
   feed.tick();
   EXPECT_EQ(feed.monitor.slipOnsets(0).size(), kMaxSlipOnsets);
-  EXPECT_DOUBLE_EQ(feed.monitor.fingers()[0].loosening_slip.time, 0.301);
-  EXPECT_EQ(feed.monitor.fingers()[0].loosening_slip.normal_force, 1.5);
+  EXPECT_DOUBLE_EQ(feed.monitor.fingers()[0].release_slip.time, 0.301);
+  EXPECT_EQ(feed.monitor.fingers()[0].release_slip.normal_force, 1.5);
 }
 
 // The trace rate is approximate: samples lie on ticks, and a very long run is sampled more sparsely.

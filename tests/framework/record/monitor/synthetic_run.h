@@ -40,11 +40,11 @@ inline constexpr std::int32_t kCube = 1;
 
 /// The states of one tick, which a test changes and feeds to a monitor.
 struct Feed {
-  explicit Feed(double duration, double loosen_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
-      : Feed(pinchWorld(), duration, loosen_time, trace_rate) {}
+  explicit Feed(double duration, double release_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
+      : Feed(pinchWorld(), duration, release_time, trace_rate) {}
   Feed(std::shared_ptr<const World> shared_world, double duration,
-       double loosen_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
-      : world(std::move(shared_world)), monitor(world, duration, loosen_time, trace_rate) {
+       double release_time = std::numeric_limits<double>::infinity(), double trace_rate = 0)
+      : world(std::move(shared_world)), monitor(world, duration, release_time, trace_rate) {
     objects.bodies.resize(2);
     place(Vec3(0, 0, 0.035));
   }

@@ -1,0 +1,17 @@
+#pragma once
+#include "framework/session/load_world.h"
+
+namespace presa::check {
+
+/// Warns of what a scene that loads well may still mean wrong, each with a figure and a cure: W241 bodies that overlap at
+/// the start, W242 a mesh as large as if its millimetres were metres, W243 fingers of models that start far from every
+/// body. Thread: main, before a run.
+void warnOfStart(const Loaded& loaded, Diagnostics& diagnostics);
+
+/// W244, if the dynamics need longer for a step than its period and bodies have meshes as their physics. Measures
+/// `simulated` seconds in lockstep; only for scenes with such a mesh and fingers of models alone.
+void warnOfSlowMeshes(Loaded loaded, double simulated, Diagnostics& diagnostics);
+/// The same for a measured step [s].
+void warnOfSlowMeshes(const World& world, double step, Diagnostics& diagnostics);
+
+}  // namespace presa::check
