@@ -17,7 +17,7 @@ const char* const kRootAttributes[] = {"format",         "format_version",    "d
                                        "rate_haptic_hz", "rate_collision_hz", "rate_dynamics_hz", "rate_view_hz"};
 const char* const kTexts[] = {"scene_xml", "rig_xml", "body_names"};
 const char* const kTableAttributes[] = {"finger", "body",         "fingertip_radius_m", "columns",
-                                        "units",  "descriptions", kInputsAttribute};
+                                        "units",  "descriptions", kInputsAttribute,     kPhasesAttribute};
 
 class Sum {
  public:
