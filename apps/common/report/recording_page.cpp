@@ -47,7 +47,7 @@ std::vector<double> magnitude(const RecordedTable& table, const std::string& nam
   return out;
 }
 
-constexpr double kFullFigures = 4;    // of more fingers, each has fewer points, so that a page has some 2 MB of them
+constexpr double kFullFigures = 3;    // of more fingers, each has fewer points, so that a page of eight has 5 MB
 constexpr double kTicksMissing = 20;  // in a row: the loop stood still
 
 /// The bodies that the finger touched, by name.
