@@ -48,18 +48,21 @@ std::string keptText(const KeptSession& kept) {
          "\n";
 }
 
+KeptSession keptOf(const std::string& text) {
+  const Json json = Json::parse(text);
+  if (json.at("presa_temple").get<int>() != kFormat)
+    throw std::runtime_error("is written in another format than " + std::to_string(kFormat));
+  KeptSession kept{json.at("size"), json.at("parameters"), json.at("seed"), json.at("spent_s"), json.at("placed"), {}};
+  for (const Json& block : json.at("blocks")) kept.X_WB.push_back(poseOf(block));
+  return kept;
+}
+
 std::optional<KeptSession> readKept(const std::string& file, Diagnostics& diagnostics) {
   try {
     input::Refusal refusal;
     const auto text = input::read(file, kMaxBytes, refusal);
     if (!text) throw std::runtime_error(refusal.what);
-    const Json json = Json::parse(*text);
-    if (json.at("presa_temple").get<int>() != kFormat)
-      throw std::runtime_error("is written in another format than " + std::to_string(kFormat));
-    KeptSession kept{json.at("size"),    json.at("parameters"), json.at("seed"),
-                     json.at("spent_s"), json.at("placed"),     {}};
-    for (const Json& block : json.at("blocks")) kept.X_WB.push_back(poseOf(block));
-    return kept;
+    return keptOf(*text);
   } catch (const std::exception& error) {
     diagnostics.error(967, {file, 0, 0}, std::string("no session to continue: ") + error.what(),
                       "the session.json of a visit, or start anew without --continue");

@@ -24,6 +24,8 @@ std::string logFile(const std::string& folder);
 
 /// The session as JSON. Numbers are read back bit-exactly.
 std::string keptText(const KeptSession& kept);
+/// Reads a session's text. Throws std::exception when it is none.
+KeptSession keptOf(const std::string& text);
 /// Reads a session. E967: the file cannot be read or is not a session.
 std::optional<KeptSession> readKept(const std::string& file, Diagnostics& diagnostics);
 

@@ -4,15 +4,25 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/version.h"
 #include "apps/temple/building/scene_text.h"
+#include "apps/temple/building/shipped.h"
 #include "apps/temple/kept_session.h"
 #include "framework/core/math/fnv.h"
 #include "framework/input/cache.h"
 
 namespace presa::temple {
+
+std::optional<std::vector<Pose>> shippedRuins(const std::string& size, std::uint64_t seed) {
+  const char* text = size == "column" ? shipped::ruins_column : size == "facade" ? shipped::ruins_facade : nullptr;
+  if (text == nullptr) return std::nullopt;
+  KeptSession kept = keptOf(text);
+  if (kept.seed != seed) return std::nullopt;
+  return std::move(kept.X_WB);
+}
 
 std::string ruinsCacheFile(const Building& building, std::uint64_t seed) {
   const std::string folder = input::cacheFolder("ruins");
@@ -36,16 +46,20 @@ std::optional<std::vector<Pose>> readRuins(const std::string& file, const Buildi
   return kept->X_WB;
 }
 
-void keepRuins(const std::string& file, const Building& building, std::uint64_t seed, const std::vector<Pose>& X_WB) {
-  if (file.empty()) return;
-  std::error_code failure;
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), failure);
+std::string ruinsText(const Building& building, std::uint64_t seed, const std::vector<Pose>& X_WB) {
   KeptSession kept;
   kept.size = building.name;
   kept.seed = seed;
   kept.X_WB = X_WB;
+  return keptText(kept);
+}
+
+void keepRuins(const std::string& file, const Building& building, std::uint64_t seed, const std::vector<Pose>& X_WB) {
+  if (file.empty()) return;
+  std::error_code failure;
+  std::filesystem::create_directories(std::filesystem::path(file).parent_path(), failure);
   try {
-    writeFileAtomically(file, keptText(kept));
+    writeFileAtomically(file, ruinsText(building, seed, X_WB));
   } catch (const std::system_error&) {
     // the next start strews them again
   }

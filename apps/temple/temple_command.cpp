@@ -107,10 +107,12 @@ std::vector<Pose> strew(const temple::Building& building, std::uint64_t seed) {
   return temple::strewRuins(building, seed, scratch.path().string(), tell).X_WB;
 }
 
-/// The scene of the ruins; no value when interrupted.
-std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed) {
-  const std::string kept = temple::ruinsCacheFile(building, seed);
-  std::optional<std::vector<Pose>> X_WB = temple::readRuins(kept, building);
+/// The scene of the ruins; `shipped`: size of a shipped building, else empty. No value when interrupted.
+std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed,
+                                         const std::string& shipped) {
+  std::optional<std::vector<Pose>> X_WB = temple::shippedRuins(shipped, seed);
+  const std::string kept = X_WB ? std::string() : temple::ruinsCacheFile(building, seed);
+  if (!X_WB) X_WB = temple::readRuins(kept, building);
   if (!X_WB) {
     X_WB = strew(building, seed);
     if (X_WB->empty()) return std::nullopt;
@@ -265,7 +267,8 @@ int runOnce(Arguments a, bool& again) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  if (!spec) spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed);
+  if (!spec)
+    spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed, a.parameters.empty() ? a.size : "");
   if (!spec) return kExitInterrupted;
   if (!a.assembled || a.visit()) {
     spec->to_be_built = true;

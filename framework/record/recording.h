@@ -17,6 +17,12 @@
 
 namespace presa {
 
+/// What a recording notes of a run's devices besides their values.
+struct RecordedDevices {
+  std::vector<std::size_t> tools;                ///< roles whose devices measure their orientation, in order
+  std::vector<std::vector<std::string>> phases;  ///< Device::phases() of each role; may be shorter
+};
+
 struct RecorderStatus {
   std::uint64_t rows = 0;     ///< haptic ticks accepted: written or waiting to be written
   std::uint64_t dropped = 0;  ///< haptic ticks or schedule rows lost because the disk was too slow
@@ -83,6 +89,8 @@ struct RecordedTable {
   };
   std::string name;  ///< role of the finger or name of the body
   std::vector<Column> columns;
+  std::vector<std::string>
+      phases{};  ///< of a finger: names of the phases that its column `phase` counts, from format 9
   /// Throws std::out_of_range when there is no such column.
   const std::vector<double>& values(const std::string& column) const;
 };
@@ -111,9 +119,8 @@ struct RecordPlugin {
   /// writes them to options.flight. Throws InputError: E601 the file exists (and options.overwrite is not set),
   /// E602 it cannot be written. Call from an ordinary thread, because the writer thread inherits its priority and CPU
   /// set.
-  /// `tools`: the roles whose devices measure their orientation, in order.
   std::unique_ptr<Recorder> (*create)(std::shared_ptr<const World> world, const RunOptions& options,
-                                      const std::vector<std::size_t>& tools);
+                                      const RecordedDevices& devices);
   /// Checks the whole file before building anything from it. Throws InputError with every finding: E603 cannot be read,
   /// E604 not HDF5, E605 not a recording, E606 newer format, E607 no tick, E608 damaged, E670 storage other than a
   /// recording's, E671 attribute, E672 object or column, E673 rows not stored or tables of different length, E674 index

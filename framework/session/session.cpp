@@ -266,7 +266,7 @@ void Session::putIntoFrames() {
 
 std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   if (planned.plugin == "record") {
-    auto recorder = recordPlugin().create(world_, options_, orientedTools());
+    auto recorder = recordPlugin().create(world_, options_, recordedDevices());
     recorder_ = recorder.get();
     return recorder;
   }
@@ -277,12 +277,13 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   return module;
 }
 
-std::vector<std::size_t> Session::orientedTools() const {
-  std::vector<std::size_t> tools;
+RecordedDevices Session::recordedDevices() const {
+  RecordedDevices recorded;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
-    if (devices_[f]->measuresOrientation()) tools.push_back(f);
+    if (devices_[f]->measuresOrientation()) recorded.tools.push_back(f);
+    recorded.phases.push_back(devices_[f]->phases());
   }
-  return tools;
+  return recorded;
 }
 
 double Session::phaseStart(const std::string& phase) const {

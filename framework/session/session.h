@@ -66,7 +66,7 @@ class Session {
   void openDevices();
   void putIntoFrames();
   void offerPointer();
-  std::vector<std::size_t> orientedTools() const;
+  RecordedDevices recordedDevices() const;
   double releaseTime() const;  ///< as Monitor takes it [s]
   std::unique_ptr<Module> load(const PlannedModule& planned);
 

@@ -12,12 +12,13 @@
 namespace presa {
 
 /// Pause, speed and jumps of simulated time that the user asks for at the window. Written by the view, read by the
-/// module or loop that advances time; any thread.
+/// module or loop that advances time, which answers with `skip_picture`; any thread.
 struct TimeControl {
   std::atomic<bool> paused{false};
-  std::atomic<double> speed{1};         ///< simulated seconds per wall-clock second
-  std::atomic<std::uint32_t> steps{0};  ///< number of single steps asked for while paused, since the start
-  std::atomic<double> jump_to{-1};      ///< requested time in a recording [s]; the reader sets it back to -1
+  std::atomic<double> speed{1};           ///< simulated seconds per wall-clock second
+  std::atomic<std::uint32_t> steps{0};    ///< number of single steps asked for while paused, since the start
+  std::atomic<double> jump_to{-1};        ///< requested time in a recording [s]; the reader sets it back to -1
+  std::atomic<bool> skip_picture{false};  ///< time is late: the view's next step leaves its picture of the window out
 };
 
 /// The picture of a run, as the application sees it: a module of the view group that draws the values of its input

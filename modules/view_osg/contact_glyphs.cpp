@@ -7,6 +7,7 @@
 
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/osg_convert.h"
+#include "modules/view_osg/placed_nodes.h"
 #include "modules/view_osg/shaders.h"
 
 namespace presa::view {
@@ -20,17 +21,6 @@ constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;
 constexpr double kConeShortest = 0.004, kConeLongest = 0.12;  ///< heights [m]
-constexpr unsigned kShown = ~0U, kHidden = 0U;
-
-void setShown(osg::Node& node, bool shown) { node.setNodeMask(shown ? kShown : kHidden); }
-
-osg::ref_ptr<osg::MatrixTransform> placed(osg::Node* child, osg::Group& parent) {
-  osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
-  transform->setDataVariance(osg::Object::DYNAMIC);
-  transform->addChild(child);
-  parent.addChild(transform);
-  return transform;
-}
 
 /// Blended, without depth writes, in render bin `order` (after opaque objects).
 void makeTranslucent(osg::StateSet& state, int order) {

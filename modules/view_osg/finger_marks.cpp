@@ -8,6 +8,7 @@
 #include "framework/geometry/closest_point.h"
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/osg_convert.h"
+#include "modules/view_osg/placed_nodes.h"
 #include "modules/view_osg/shaders.h"
 
 namespace presa::view {
@@ -20,16 +21,6 @@ constexpr double kFingerLength = 0.05, kFingerThick = 0.8;  // length [m], radiu
 constexpr double kHandAbove = 0.13;                         // where both fingers point, above their middle [m]
 const Vec3 kDown(1e-6, 1.4e-6, -1);                         // along no axis of a box
 constexpr double kFloats = 0.0006;                          // of marks over the surface below them [m]
-
-osg::ref_ptr<osg::MatrixTransform> placed(osg::Node* child, osg::Group& parent) {
-  osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
-  transform->setDataVariance(osg::Object::DYNAMIC);
-  transform->addChild(child);
-  parent.addChild(transform);
-  return transform;
-}
-
-void shown(osg::Node& node, bool is) { node.setNodeMask(is ? ~0U : 0U); }
 
 void addOpacity(osg::Node& node, float opacity) {
   node.getOrCreateStateSet()->addUniform(new osg::Uniform("opacity", opacity));
@@ -140,9 +131,9 @@ void FingerMarks::follow(const FingerView& view, const Vec3& towards_W, const st
                        osg::Matrixd::translate(toOsg(end)));
   const std::optional<double> ground = around_.below(view.p_WP, X_WB);
   const double high = ground ? view.p_WP.z() - r - *ground : 0;
-  shown(*marks.line, high > 0.002);
-  shown(*marks.spot, ground.has_value());
-  shown(*marks.ring, ground.has_value());
+  setShown(*marks.line, high > 0.002);
+  setShown(*marks.spot, ground.has_value());
+  setShown(*marks.ring, ground.has_value());
   if (ground) {
     const Vec3 at(view.p_WP.x(), view.p_WP.y(), *ground + kFloats);
     if (high > 0.002) marks.line->setMatrix(alongZ(at, Vec3::UnitZ(), {kLineRadius, kLineRadius, high}));
@@ -150,7 +141,7 @@ void FingerMarks::follow(const FingerView& view, const Vec3& towards_W, const st
     marks.ring->setMatrix(alongZ(at, Vec3::UnitZ(), {0.3 * r, 0.3 * r, 2 * kSpotThick}));
   }
   const auto near = around_.nearest(view.p_WP, r + kGlowReach, X_WB);
-  shown(*marks.glow, near.has_value());
+  setShown(*marks.glow, near.has_value());
   if (!near) return;
   const double gap = std::max(0.0, near->distance - r);
   const double size = kGlowRadius * (0.5 + 0.5 * (1 - gap / kGlowReach));
@@ -171,7 +162,7 @@ void FingerMarks::update(const std::vector<FingerView>& fingers, const std::vect
     const bool is = i < fingers.size() && fingers[i].valid;
     for (osg::Node* node : {marks_[i].tip.get(), marks_[i].finger.get(), marks_[i].end.get(), marks_[i].line.get(),
                             marks_[i].spot.get(), marks_[i].ring.get(), marks_[i].glow.get()})
-      shown(*node, is);
+      setShown(*node, is);
     if (is) follow(fingers[i], middle + kHandAbove * Vec3::UnitZ(), X_WB, marks_[i]);
   }
 }

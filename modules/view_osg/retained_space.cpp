@@ -5,7 +5,7 @@
 #include <osg/FrameBufferObject>
 #include <osg/GLExtensions>
 
-#include "modules/view_osg/scene_nodes.h"
+#include "modules/view_osg/placed_nodes.h"
 #include "modules/view_osg/shaders.h"
 
 namespace presa::view {
@@ -50,7 +50,18 @@ class CopyToWindow final : public osg::Drawable {
   int width_ = 0, height_ = 0;
 };
 
-void setShown(osg::Node& node, bool shown) { node.setNodeMask(shown ? ~0U : 0U); }
+bool within(const PixelRect& inner, const PixelRect& outer) {
+  return inner.x >= outer.x && inner.y >= outer.y && inner.x + inner.width <= outer.x + outer.width &&
+         inner.y + inner.height <= outer.y + outer.height;
+}
+
+/// Adds a rectangle that none of the others holds, and takes out those that it holds.
+void addTo(std::vector<PixelRect>& parts, const PixelRect& part) {
+  const auto held = [&](const PixelRect& other) { return within(part, other); };
+  if (part.empty() || std::ranges::any_of(parts, held)) return;
+  std::erase_if(parts, [&](const PixelRect& other) { return within(other, part); });
+  parts.push_back(part);
+}
 
 }  // namespace
 
@@ -79,10 +90,17 @@ RetainedSpace::RetainedSpace(Picture& picture) : picture_(picture) {
   drawInto(*both_, *window_);
   both_->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   both_->setClearMask(0);
-  osg::ref_ptr<osg::Geometry> sheet = clipSpaceSheet(1);
-  both_->addChild(sheet);
-  osg::StateSet* state = sheet->getOrCreateStateSet();
-  state->addUniform(part_);
+  sheets_->setUseDisplayList(false);
+  sheets_->setUseVertexBufferObjects(true);
+  sheets_->setDataVariance(osg::Object::DYNAMIC);
+  sheets_->setCullingActive(false);  // its places are in clip space
+  sheets_->setVertexArray(new osg::Vec3Array);
+  sheets_->setTexCoordArray(0, new osg::Vec2Array);
+  sheets_->addPrimitiveSet(new osg::DrawArrays(GL_QUADS, 0, 0));
+  both_->addChild(sheets_);
+  both_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+  osg::StateSet* state = sheets_->getOrCreateStateSet();
+  state->addUniform(new osg::Uniform("part", osg::Vec4(0, 0, 1, 1)));
   state->setAttributeAndModes(shaders::overlay());
   state->setTextureAttribute(0, space_, osg::StateAttribute::ON);
   state->setTextureAttribute(1, hud_, osg::StateAttribute::ON);
@@ -100,7 +118,8 @@ void RetainedSpace::setSize(int width, int height, double share) {
   width_ = static_cast<int>(std::lround(share * width)), height_ = static_cast<int>(std::lround(share * height));
   picture_.setSize(width_, height_);
   camera_->resizeAttachments(width_, height_);
-  const auto filter = share < 1 ? osg::Texture::LINEAR : osg::Texture::NEAREST;
+  // of twice the size, each pixel is the mean of four: the nearest of them would depend on rounding, and smooth nothing
+  const auto filter = share != 1 ? osg::Texture::LINEAR : osg::Texture::NEAREST;
   space_->setFilter(osg::Texture::MIN_FILTER, filter);
   space_->setFilter(osg::Texture::MAG_FILTER, filter);
   for (osg::Camera* camera : {picture_.hud().camera(), both_.get()}) {
@@ -116,8 +135,31 @@ void RetainedSpace::prepare(const osg::Matrixd& view_projection, double clock, b
   const PixelRect drawn = drawSpace(view_projection);
   const bool due = now || clock - hud_drawn_ > kHudPeriod;
   setShown(*picture_.hud().camera(), due);
-  if (due) hud_drawn_ = clock;
-  combine(due ? PixelRect{0, 0, width_, height_} : drawn);
+  std::vector<PixelRect> parts;
+  addTo(parts, inWindow(drawn));
+  if (due) {
+    hud_drawn_ = clock;
+    for (const PixelRect& part : hud_parts_) addTo(parts, part);  // what was there may be gone
+    hud_parts_ = hudParts();
+    for (const PixelRect& part : hud_parts_) addTo(parts, part);
+  }
+  combine(parts);
+}
+
+/// Where the window shows the head-up display: a few panels and words; the rest of it is empty.
+std::vector<PixelRect> RetainedSpace::hudParts() {
+  osg::Camera& hud = *picture_.hud().camera();
+  std::vector<Vec3> corners;
+  for (unsigned i = 0; i < hud.getNumChildren(); ++i) addCorners(*hud.getChild(i), corners);
+  std::vector<PixelRect> parts;
+  constexpr std::size_t kCorners = 8;  // of each drawable
+  for (std::size_t i = 0; i + kCorners <= corners.size(); i += kCorners) {
+    const auto first = corners.begin() + static_cast<std::ptrdiff_t>(i);
+    addTo(parts,
+          changedPixels({.all = false, .points = {first, first + kCorners}}, hud.getProjectionMatrix(),
+                        static_cast<int>(hud.getViewport()->width()), static_cast<int>(hud.getViewport()->height())));
+  }
+  return parts;
 }
 
 /// Returns the pixels that are drawn anew.
@@ -135,18 +177,35 @@ PixelRect RetainedSpace::drawSpace(const osg::Matrixd& view_projection) {
   return rect;
 }
 
-/// Puts space and head-up display together where the space's pixels `drawn` are seen.
-void RetainedSpace::combine(const PixelRect& drawn) {
-  setShown(*both_, !drawn.empty());
-  if (drawn.empty()) return;
-  const osg::Viewport& hud = *picture_.hud().camera()->getViewport();
-  const auto low = [&](int pixel) { return std::max(0.0, std::floor(pixel / share_) - 1); };
-  const auto high = [&](int pixel, double size) { return std::min(size, std::ceil(pixel / share_) + 1); };
-  const double x = low(drawn.x), y = low(drawn.y);
-  const double width = high(drawn.x + drawn.width, hud.width()) - x;
-  const double height = high(drawn.y + drawn.height, hud.height()) - y;
-  both_->setViewport(static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height));
-  part_->set(osg::Vec4d(x / hud.width(), y / hud.height(), width / hud.width(), height / hud.height()));
+/// The pixels of the window in which pixels of the three-dimensional part are seen.
+PixelRect RetainedSpace::inWindow(const PixelRect& drawn) const {
+  if (drawn.empty()) return {};
+  const osg::Viewport& window = *both_->getViewport();
+  const auto low = [&](int pixel) { return static_cast<int>(std::max(0.0, std::floor(pixel / share_) - 1)); };
+  const auto high = [&](int pixel, double size) {
+    return static_cast<int>(std::min(size, std::ceil(pixel / share_) + 1));
+  };
+  const int x = low(drawn.x), y = low(drawn.y);
+  return {x, y, high(drawn.x + drawn.width, window.width()) - x, high(drawn.y + drawn.height, window.height()) - y};
+}
+
+/// Puts space and head-up display together in these parts of the window. They may overlap: nothing is blended.
+void RetainedSpace::combine(const std::vector<PixelRect>& parts) {
+  setShown(*both_, !parts.empty());
+  auto& places = static_cast<osg::Vec3Array&>(*sheets_->getVertexArray());
+  auto& shares = static_cast<osg::Vec2Array&>(*sheets_->getTexCoordArray(0));
+  places.clear(), shares.clear();
+  const osg::Viewport& window = *both_->getViewport();
+  for (const PixelRect& part : parts) {
+    const double left = part.x / window.width(), right = (part.x + part.width) / window.width();
+    const double low = part.y / window.height(), high = (part.y + part.height) / window.height();
+    for (const osg::Vec2d& at : {osg::Vec2d(left, low), {right, low}, {right, high}, {left, high}}) {
+      shares.push_back(osg::Vec2(at));
+      places.push_back(osg::Vec3(osg::Vec2(at * 2 - osg::Vec2d(1, 1)), 0));
+    }
+  }
+  places.dirty(), shares.dirty();
+  static_cast<osg::DrawArrays&>(*sheets_->getPrimitiveSet(0)).setCount(static_cast<int>(places.size()));
 }
 
 }  // namespace presa::view

@@ -4,6 +4,7 @@
 #include <osg/Group>
 #include <osg/Texture2D>
 #include <osg/Uniform>
+#include <vector>
 
 #include "modules/view_osg/picture.h"
 
@@ -26,15 +27,18 @@ class RetainedSpace {
 
  private:
   PixelRect drawSpace(const osg::Matrixd& view_projection);
-  void combine(const PixelRect& drawn);
+  std::vector<PixelRect> hudParts();
+  PixelRect inWindow(const PixelRect& drawn) const;
+  void combine(const std::vector<PixelRect>& parts);
 
   Picture& picture_;
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
   osg::ref_ptr<osg::Camera> camera_ = new osg::Camera, both_ = new osg::Camera;
   osg::ref_ptr<osg::Texture2D> space_ = new osg::Texture2D, hud_ = new osg::Texture2D, window_ = new osg::Texture2D;
   osg::ref_ptr<osg::Uniform> crop_ = new osg::Uniform("crop", osg::Vec2(0, 1));
-  osg::ref_ptr<osg::Uniform> part_ = new osg::Uniform("part", osg::Vec4(0, 0, 1, 1));
+  osg::ref_ptr<osg::Geometry> sheets_ = new osg::Geometry;  // the rectangles where both are put together
   osg::ref_ptr<osg::Drawable> copy_;
+  std::vector<PixelRect> hud_parts_;  // of the window, where the last head-up display was
   Changes pending_;
   osg::Matrixd view_projection_;
   int width_ = 0, height_ = 0;  // of the three-dimensional part [pixel]

@@ -80,7 +80,7 @@ void ViewModule::step(const Tick& tick) noexcept {
     copyPorts(tick);
     picture_->follow(frame_, timings_);
     if (plugin_parts_) plugin_parts_->follow(frame_);
-    if (windowed()) drawWindow();
+    if (windowed() && (time_ == nullptr || !time_->skip_picture)) drawWindow();
     if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();
     saveSeries();

@@ -1,13 +1,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "framework/core/schedule/clock.h"
-#include "framework/session/load_world.h"
-#include "framework/session/session.h"
+#include "framework/session/run.h"
+#include "tests/bench/shipped_scene.h"
 
 namespace presa {
 namespace {
@@ -19,11 +19,7 @@ void BM_HapticTickOfScene(benchmark::State& state, const char* scene, const char
   std::vector<std::int64_t> ticks;
   for (auto _ : state) {
     state.PauseTiming();
-    Diagnostics diagnostics;
-    Loaded loaded = loadWorld(
-        {std::string(PRESA_SOURCE_DIR) + "/config/scenes/" + scene, "", {std::string("dynamics/coupling=") + coupling}},
-        {}, diagnostics);
-    if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
+    Loaded loaded = bench::loadShipped(scene, {std::string("dynamics/coupling=") + coupling});
     const RateTable rates(loaded.world->scene.rates);
     RunControl control;
     Session session(std::move(loaded), control, {});
@@ -54,6 +50,28 @@ BENCHMARK_CAPTURE(BM_HapticTickOfScene, cup_and_ball_held, "cup_and_ball.xml", "
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray, "tea_tray.xml")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray_held, "tea_tray.xml", "haptic_rate")->Unit(benchmark::kMillisecond);
+
+// The same tick of the cube in real time, on a thread of its own, without and with a window beside it. Percentiles over
+// the ticks of ten seconds. With a display: xvfb-run -s '-screen 0 1280x720x24' ./dev bench BM_HapticTickBeside
+void BM_HapticTickBeside(benchmark::State& state, RunOptions::View view) {
+  if (view == RunOptions::View::kWindow && std::getenv("DISPLAY") == nullptr) {
+    state.SkipWithError("needs a display: xvfb-run");
+    return;
+  }
+  RunOptions options;
+  options.realtime = true;
+  options.view = view;
+  options.duration = 10;
+  RunControl control;
+  Run run(bench::loadShipped("cube.xml", {}, options), control);
+  for (auto _ : state) run.execute();
+  const GroupTiming& haptic = run.timing(RateGroup::kHaptic);
+  state.counters["tick_p50_us"] = static_cast<double>(haptic.execution.percentile(0.5)) * 1e-3;
+  state.counters["tick_p99_us"] = static_cast<double>(haptic.execution.percentile(0.99)) * 1e-3;
+  state.counters["missed"] = static_cast<double>(haptic.missed + haptic.skipped);
+}
+BENCHMARK_CAPTURE(BM_HapticTickBeside, nothing, RunOptions::View::kNone)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_HapticTickBeside, window, RunOptions::View::kWindow)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace presa

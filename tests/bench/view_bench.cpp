@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "framework/core/schedule/clock.h"
-#include "framework/session/load_world.h"
 #include "framework/session/session.h"
+#include "tests/bench/shipped_scene.h"
 
 // The window: processor time of a picture with software rendering, all threads of this process together, and of the
 // first one from the start of the view. Run with a display: xvfb-run -s '-screen 0 1280x720x24' ./dev bench View
@@ -22,15 +21,6 @@ double processMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-Loaded load(const std::string& scene) {
-  Diagnostics diagnostics;
-  RunOptions options;
-  options.view = RunOptions::View::kWindow;
-  Loaded loaded = loadWorld({std::string(PRESA_SOURCE_DIR) + "/" + scene, "", {}}, options, diagnostics);
-  if (diagnostics.hasErrors()) throw std::runtime_error(diagnostics.text());
-  return loaded;
-}
-
 /// Frames of a run from `begin` to `end` [s] in virtual time, at the rate of the view.
 void BM_View(benchmark::State& state, const std::string& scene, double begin, double end) {
   if (std::getenv("DISPLAY") == nullptr) {
@@ -41,7 +31,9 @@ void BM_View(benchmark::State& state, const std::string& scene, double begin, do
   double first = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    Loaded loaded = load(scene);
+    RunOptions options;
+    options.view = RunOptions::View::kWindow;
+    Loaded loaded = bench::loadShipped(scene, {}, options);
     const RateTable rates(loaded.world->scene.rates);
     RunControl control;
     Session session(std::move(loaded), control, {});
@@ -74,13 +66,9 @@ void BM_View(benchmark::State& state, const std::string& scene, double begin, do
   state.counters["frame_p90_ms"] = frames[frames.size() * 9 / 10];
   state.counters["wall_p50_ms"] = wall[wall.size() / 2];
 }
-BENCHMARK_CAPTURE(BM_View, cube, "config/scenes/cube.xml", 0.5, 6)->Unit(benchmark::kMillisecond)->Iterations(1);
-BENCHMARK_CAPTURE(BM_View, amphora, "config/scenes/pinch_and_lift.xml", 0.5, 6)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(1);
-BENCHMARK_CAPTURE(BM_View, tea_tray, "config/scenes/tea_tray.xml", 0.5, 4)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(1);
+BENCHMARK_CAPTURE(BM_View, cube, "cube.xml", 0.5, 6)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(BM_View, amphora, "pinch_and_lift.xml", 0.5, 6)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(BM_View, tea_tray, "tea_tray.xml", 0.5, 4)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace presa

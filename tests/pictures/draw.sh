@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# The pictures of README, from the programs themselves: ./dev pictures, and the test that compares them.
+# The pictures of README and of each scene, from the programs themselves: ./dev pictures, and the tests that compare them.
 # usage: draw.sh PROGRAMS OUT NAME…         PROGRAMS: folder of the program presa; OUT: folder for NAME.png
+#                                           scenes/NAME: a small picture of a scene; scene_pages: the tops of all their reports
+#        draw.sh scene PROGRAMS OUT NAME ARGS…   such a small picture, with further arguments of presa run
 #        draw.sh page PAGE.html NAME OUT    the picture of a page that is there already, of the size that NAME has
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -13,6 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
+    scene_pages) size=1770,1000 ;;      # 24 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
@@ -20,6 +23,32 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
     --force-device-scale-factor=1 --user-data-dir="$scratch/profile" --window-size="$size" \
     --screenshot="$3/$2.png" "file://$(realpath "$1")" >"$scratch/chromium.log" 2>&1 ||
     { cat "$scratch/chromium.log" >&2; return 1; }
+}
+
+scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there is none, in the middle of a stroke, or at the end
+  local programs=$1 out=$2 name=$3
+  local args=("${@:4}")
+  case $name in
+    friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
+    sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
+  esac
+  mkdir -p "$out/scenes"
+  "$programs/presa" run "$config/scenes/$name.xml" --lockstep --quiet --hud off --picture-size 320x180 \
+    --screenshot "$out/scenes/$name.png" "${args[@]}"
+}
+
+# The top of each scene's report, at a quarter of its size. Frames, so that each page has its own styles.
+scene_pages() {  # PROGRAMS OUT
+  local file name pages=$scratch/scene_pages.html
+  echo '<!doctype html><style>body{margin:0;background:#fff}div{float:left;width:295px;height:250px;overflow:hidden}
+    iframe{border:0;width:1180px;height:1000px;transform:scale(.25);transform-origin:0 0}</style>' >"$pages"
+  for file in "$config"/scenes/*.xml; do
+    name=$(basename "$file" .xml)
+    "$1/presa" run "$file" --lockstep --quiet --view none --report "$scratch/$name.html"
+    sed -i '/<h2>Rates/,$d' "$scratch/$name.html" # figures that differ from run to run
+    echo "<div><iframe scrolling=no src=\"$name.html\"></iframe></div>" >>"$pages"
+  done
+  page "$pages" scene_pages "$2"
 }
 
 draw() {  # PROGRAMS OUT NAME
@@ -42,12 +71,16 @@ draw() {  # PROGRAMS OUT NAME
       page "$scratch/stability/report.html" "$3" "$2"
       python3 "$here/stability_counts.py" "$scratch/stability/rows.jsonl" "$2/$3.tsv"
       ;;
+    scene_pages) scene_pages "$1" "$2" ;;
+    scenes/*) scene "$1" "$2" "${3#scenes/}" ;;
     *) echo "there is no picture '$3'" >&2 && return 2 ;;
   esac
 }
 
 if [[ $1 == page ]]; then
   page "$2" "$3" "$4"
+elif [[ $1 == scene ]]; then
+  scene "${@:2}"
 else
   programs=$1 out=$2
   shift 2

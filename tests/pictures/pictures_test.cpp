@@ -59,6 +59,12 @@ TEST(Pictures, TheReportOfTheCubeIsAsItIsToday) {
   expectAsDrawnByThePrograms("cube_report");
 }
 
+// Each scene's report has its verdict, its figures and its first plot at the top, as they were.
+TEST(Pictures, TheTopsOfTheScenesReportsAreAsTheyAreToday) {
+  if (browserMissing()) GTEST_SKIP() << "no chromium here";
+  expectAsDrawnByThePrograms("scene_pages");
+}
+
 /// Rows with the counts of one line of stability_report.tsv: all that the page shows of a case that is closed.
 void addRows(const std::string& line, std::vector<Row>& rows) {
   std::istringstream fields(line);

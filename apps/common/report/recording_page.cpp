@@ -1,5 +1,6 @@
 #include "apps/common/report/recording_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/common/number_text.h"
@@ -46,6 +47,7 @@ std::vector<double> magnitude(const RecordedTable& table, const std::string& nam
   return out;
 }
 
+constexpr double kFullFigures = 3;    // of more fingers, each has fewer points, so that a page of eight has 5 MB
 constexpr double kTicksMissing = 20;  // in a row: the loop stood still
 
 /// The bodies that the finger touched, by name.
@@ -74,6 +76,7 @@ svg::TimeFigure figureOf(const RecordedSamples& samples, const RecordedTable& fi
   figure.title = "Force, penetration, speed and place of " + finger.name + " over time";
   figure.time = samples.time;
   figure.max_step = kTicksMissing * samples.haptic_period;
+  figure.detail = std::min(1.0, kFullFigures / static_cast<double>(samples.fingers.size()));
   figure.events = faultEvents(samples.faults);
   const std::vector<svg::Band> spans = touched(samples, finger, bodies);
   svg::Panel force{.title = "Force" + svg::touching(spans), .unit = "N", .height = 170, .from_zero = true};

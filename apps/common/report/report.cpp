@@ -90,7 +90,7 @@ std::string reportHtml(const RunResult& result) {
   out +=
       verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
   if (!result.contact_points.empty()) out += "<h2>Contact points</h2>\n" + html::contactTable(result);
-  out += "<h2>Objects</h2>\n" + html::objectTable(result);
+  if (!result.objects.empty()) out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += "<h2>Rates</h2>\n" + html::rateTable(result);
   out += "<h2>Faults and notes</h2>\n" + html::faultsAndNotes(result);
   out += filesSection(result) + screenshotSection(result);

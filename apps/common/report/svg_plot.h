@@ -60,6 +60,7 @@ struct TimeFigure {
   std::vector<Band> bands{};
   std::vector<Event> events{};
   std::vector<Panel> panels{};
+  double detail = 1;  ///< share of the points that a figure has at most, for pages with many figures; extremes stay
 };
 
 struct Cloud {

@@ -9,11 +9,14 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 400;                         // [px]
-constexpr double kLeft = 56, kRight = 506, kTop = 14, kBottom = 350;  // plotting area
+constexpr double kWidth = 520;                                 // [px]
+constexpr double kLeft = 56, kRight = 506, kPlotHeight = 336;  // plotting area
+constexpr double kTop = 14, kEntryHeight = 18;                 // the legend is above it, where no ray crosses it
+constexpr double kBelow = 50;                                  // its axis and that axis' title
 
 /// Dots as zero-length strokes, each pixel position once, so that thousands of samples make a small file.
 std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
+  if (cloud.points.empty()) return {};
   std::set<std::pair<long, long>> drawn;
   std::string path;
   for (const Point& point : cloud.points) {
@@ -27,19 +30,20 @@ std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
 
 std::string axes(const ScatterFigure& figure, const Scale& x, const Scale& y) {
   std::string out;
+  const double bottom = y.pixel_low, top = y.pixel_high;
   const auto x_ticks = niceTicks(0, x.data_high, 8);
   const auto y_ticks = niceTicks(0, y.data_high, 7);
   for (const double value : x_ticks) {
-    out += lineFromTo(x(value), kTop, x(value), kBottom, "grid");
-    out += textAt(x(value), kBottom + 16, "tick xtick", tickText(value, x_ticks[1] - x_ticks[0]));
+    out += lineFromTo(x(value), top, x(value), bottom, "grid");
+    out += textAt(x(value), bottom + 16, "tick xtick", tickText(value, x_ticks[1] - x_ticks[0]));
   }
   for (const double value : y_ticks) {
     out += lineFromTo(kLeft, y(value), kRight, y(value), "grid");
     out += textAt(kLeft - 8, y(value) + 4, "tick ytick", tickText(value, y_ticks[1] - y_ticks[0]));
   }
-  out += lineFromTo(kLeft, kBottom, kRight, kBottom, "axis") + lineFromTo(kLeft, kTop, kLeft, kBottom, "axis");
-  out += textAt(0.5 * (kLeft + kRight), kBottom + 38, "tick xtick", escape(figure.x_label));
-  out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (kTop + kBottom)) + ") rotate(-90)\">" +
+  out += lineFromTo(kLeft, bottom, kRight, bottom, "axis") + lineFromTo(kLeft, top, kLeft, bottom, "axis");
+  out += textAt(0.5 * (kLeft + kRight), bottom + 38, "tick xtick", escape(figure.x_label));
+  out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (top + bottom)) + ") rotate(-90)\">" +
          escape(figure.y_label) + "</text>\n";
   return out;
 }
@@ -56,15 +60,16 @@ std::string mark(const Mark& m, const Scale& x, const Scale& y) {
 
 std::string legend(const ScatterFigure& figure) {
   std::string out;
-  double y = kTop + 16;
+  double y = kTop;
   const auto entry = [&](const std::string& symbol, const std::string& label) {
     out += symbol + textAt(kLeft + 34, y, "legend", escape(label));
-    y += 18;
+    y += kEntryHeight;
   };
   const double at = kLeft + 20;
   for (const Ray& line : figure.rays)
     entry(lineFromTo(at - 9, y - 4, at + 9, y - 4, "ray " + line.css_class), line.label);
   for (const Cloud& cloud : figure.clouds) {
+    if (cloud.points.empty()) continue;
     entry("<path class=\"dots big " + cloud.css_class + "\" d=\"M" + px(at) + " " + px(y - 4) + "h0\"/>", cloud.label);
   }
   for (const Mark& m : figure.marks) {
@@ -93,13 +98,15 @@ std::string render(const ScatterFigure& figure) {
   for (const Cloud& cloud : figure.clouds) std::for_each(cloud.points.begin(), cloud.points.end(), include);
   for (const Mark& m : figure.marks) include(m.at);
   if (!(x_high > 0)) return "<p class=\"empty\">No contact to plot.</p>\n";
-  // room above the data for the legend, and at least one ray in view
-  y_high = std::max(1.5 * y_high, 0.3 * x_high);
+  y_high = std::max(1.05 * y_high, 0.3 * x_high);  // at least one ray in view
+  const auto clouds = std::ranges::count_if(figure.clouds, [](const Cloud& cloud) { return !cloud.points.empty(); });
+  const auto entries = static_cast<double>(figure.rays.size() + figure.marks.size()) + static_cast<double>(clouds);
+  const double top = kTop + kEntryHeight * entries;
   const Scale x{0, 1.05 * x_high, kLeft, kRight};
-  const Scale y{0, y_high, kBottom, kTop};
+  const Scale y{0, y_high, top + kPlotHeight, top};
 
-  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(kHeight) + "\" role=\"img\" aria-label=\"" +
-                    escape(figure.title) + "\">\n" + axes(figure, x, y);
+  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(top + kPlotHeight + kBelow) +
+                    "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + axes(figure, x, y);
   for (const Cloud& cloud : figure.clouds) out += dots(cloud, x, y);
   for (const Ray& line : figure.rays) out += ray(line, x, y);
   for (const Mark& m : figure.marks) out += mark(m, x, y);

@@ -38,10 +38,16 @@ std::pair<double, double> rangeOf(const Series& series, std::size_t begin, std::
   return {low, high};
 }
 
+/// Every how many samples one is kept, so that there are `most` of them, or the figure's share of it.
+std::size_t strideOf(const TimeFigure& figure, std::size_t most) {
+  const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(most) * figure.detail));
+  return std::max<std::size_t>(1, (figure.time.size() + kept - 1) / kept);
+}
+
 }  // namespace
 
 std::string readoutData(const TimeFigure& figure, const Scale& x) {
-  const std::size_t stride = std::max<std::size_t>(1, (figure.time.size() + kReadouts - 1) / kReadouts);
+  const std::size_t stride = strideOf(figure, kReadouts);
   const auto values = [&](const std::vector<double>& all) {
     std::string out = "[";
     for (std::size_t i = 0; i < all.size(); i += stride) {
@@ -76,7 +82,7 @@ std::string readoutData(const TimeFigure& figure, const Scale& x) {
 }
 
 Csv csvOf(const TimeFigure& figure) {
-  const std::size_t count = figure.time.size(), stride = std::max<std::size_t>(1, (count + kCsvRows - 1) / kCsvRows);
+  const std::size_t count = figure.time.size(), stride = strideOf(figure, kCsvRows);
   const auto asRange = [&](const Series& series) { return stride > 1 || !series.low.empty(); };
   std::vector<std::string> headings{figure.x_label};
   for (const Panel& panel : figure.panels) {

@@ -6,10 +6,10 @@
 namespace presa::svg {
 namespace {
 
-std::string path(const std::vector<Point>& points, const Scale& x, const Scale& y, bool step) {
+std::string path(const std::vector<Point>& points, const Scale& x, const Scale& y, bool step, double detail) {
   std::string out;
   const Point* previous = nullptr;
-  const auto columns = static_cast<int>(x.pixel_high - x.pixel_low);
+  const auto columns = static_cast<int>((x.pixel_high - x.pixel_low) * detail);
   const std::vector<Point> kept = decimate(points, x.data_low, x.data_high, columns);
   for (const Point& point : kept) {
     const std::string at = px(x(point.x));
@@ -51,7 +51,7 @@ std::string linePath(const TimeFigure& figure, const Series& series, const Scale
   std::string out;
   std::vector<Point> run;
   const auto flush = [&] {
-    if (!run.empty()) out += path(run, x, y, series.step);
+    if (!run.empty()) out += path(run, x, y, series.step, figure.detail);
     run.clear();
   };
   for (std::size_t i = 0; i < figure.time.size(); ++i) {

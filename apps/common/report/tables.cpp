@@ -81,7 +81,6 @@ std::string contactTable(const RunResult& result) {
 }
 
 std::string objectTable(const RunResult& result) {
-  if (result.objects.empty()) return "<p class=\"empty\">No free bodies in this scene.</p>\n";
   std::string rows;
   for (const RunResult::Object& object : result.objects) {
     const ObjectSummary& sum = object.summary;

@@ -93,7 +93,7 @@ std::string finePrint(const Result& result) {
       fact("random numbers",
            format("seed %llu, a stream of its own for each test", static_cast<unsigned long long>(analysis.seed))) +
       fact("numbers", "analysis.json and tables/*.csv beside this page hold all of them, with all digits") +
-      fact("Presa", kVersion);
+      fact("Presa", versionText());
   return "<h2>Fine print</h2>\n<div class=\"scroll\"><table class=\"facts\"><tbody>\n" + rows +
          "</tbody></table></div>\n";
 }

@@ -120,7 +120,7 @@ std::string methodOf(const wanted::Psychometric& what, const Context& context) {
 
 Section section(const wanted::Psychometric& what, const Context& context) {
   const Stimulus stimulus(what, context.experiment);
-  Section section{"psychometric", "Psychometric function of " + what.y + " over " + what.x, methodOf(what, context)};
+  Section section{"psychometric", titleOf(what, context), methodOf(what, context)};
   Table table{"psychometric_" + what.x + "_" + what.y, columnsOf(what, context, stimulus), {}};
   const bool several = context.trials.subjects.size() > 1;
   const std::vector<Fit> fits = fitsOf(what, context, stimulus);

@@ -50,6 +50,9 @@ std::vector<Fit> fitsOf(const wanted::Psychometric& what, const Context& context
 /// Proportions at which the bootstrap computes the curve's interval: between the asymptotes at the largest lapse rate.
 std::vector<double> bandOf(const statistics::PsychometricModel& model);
 
+/// "Psychometric function: proportion of right answers over ln(mu_s / standard)", in the words of the figure's axes.
+std::string titleOf(const wanted::Psychometric& what, const Context& context);
+
 /// Figure of the answers, the curves and their intervals: a row per subject, a column per group. With many subjects
 /// only all of them together are drawn.
 std::string figureOf(const wanted::Psychometric& what, const Context& context, const std::vector<Fit>& fits);

@@ -94,7 +94,13 @@ std::string yLabel(const wanted::Psychometric& what, const Context& context) {
                                                               : "proportion of answers “greater” [1]";
 }
 
+std::string withoutUnit(const std::string& label) { return label.substr(0, label.rfind(" [")); }
+
 }  // namespace
+
+std::string titleOf(const wanted::Psychometric& what, const Context& context) {
+  return "Psychometric function: " + withoutUnit(yLabel(what, context)) + " over " + withoutUnit(xLabel(what, context));
+}
 
 std::string figureOf(const wanted::Psychometric& what, const Context& context, const std::vector<Fit>& fits) {
   const std::size_t subjects = context.trials.subjects.size();

@@ -101,7 +101,7 @@ std::string page(const Characterisation& c) {
     out += "<h2>" + escape(plot.title) + "</h2>\n" + svg::render(figureOf(plot)) + "<p class=\"caption\">" +
            escape(plot.caption) + "</p>\n";
   return out + "<h2>Unpublished numbers</h2>\n" + assumptionTable(c) + "<p class=\"caption\">Presa " +
-         std::string(kVersion) + "</p>\n" + page::tail();
+         escape(versionText()) + "</p>\n" + page::tail();
 }
 
 }  // namespace presa::device

@@ -23,7 +23,7 @@ using nlohmann::json;
 struct Scenery {
   std::shared_ptr<const World> world;  ///< null: the scene cannot be loaded again
   std::string trouble;                 ///< why not
-  std::vector<std::string> phases;     ///< names, from the script that moved the fingers
+  std::vector<std::string> phases;     ///< names, for a recording without them
 };
 
 /// Names of the phases from the drivers of the rig; none when they or their scripts are not here any more.

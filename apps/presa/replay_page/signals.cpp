@@ -163,6 +163,7 @@ json phasesOf(const RecordedSamples& samples, const std::vector<std::string>& na
   for (const RecordedTable& finger : samples.fingers) {
     const Values& phase = finger.values("phase");
     if (std::ranges::all_of(phase, [](double p) { return p < 0; })) continue;
+    const std::vector<std::string>& known = finger.phases.empty() ? names : finger.phases;
     json phases = json::array();
     for (std::size_t i = 0; i < phase.size(); ++i) {
       const double end = samples.time[i] + samples.haptic_period;
@@ -170,7 +171,7 @@ json phasesOf(const RecordedSamples& samples, const std::vector<std::string>& na
         if (phase[i] >= 0) phases.back()["end"] = end;
       } else if (phase[i] >= 0) {
         const auto index = static_cast<std::size_t>(phase[i]);
-        const std::string name = index < names.size() ? names[index] : "phase " + std::to_string(index + 1);
+        const std::string name = index < known.size() ? known[index] : "phase " + std::to_string(index + 1);
         phases.push_back({{"name", name}, {"begin", samples.time[i]}, {"end", end}});
       }
     }

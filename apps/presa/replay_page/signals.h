@@ -18,7 +18,8 @@ inline constexpr std::size_t kMaxSignalBytes = 1'400'000;
 nlohmann::json signalsOf(const RecordedSamples& samples, const World* world,
                          const std::vector<std::uint8_t>& surfaces_changed);
 
-/// Phases of the first finger that has some: [{name, begin, end}]. `names` by index; others are "phase 3".
+/// Phases of the first finger that has some: [{name, begin, end}]. `names` by index, of a recording that has none itself;
+/// others are "phase 3".
 nlohmann::json phasesOf(const RecordedSamples& samples, const std::vector<std::string>& names);
 
 }  // namespace presa::replay_page

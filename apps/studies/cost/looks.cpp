@@ -52,10 +52,19 @@ double effectOf(const Result& result, std::size_t knob) {
   return groups.size() > 1 ? effect / static_cast<double>(groups.size() - 1) : 0;
 }
 
+/// A knob's value in words for people: engines have their own names.
+std::string wordOf(const std::string& knob, const std::string& value) {
+  if (knob != "engine") return value;
+  return value == "ode" ? "ODE" : value == "mujoco" ? "MuJoCo" : value == "bullet" ? "Bullet" : value;
+}
+
 std::string tagOf(const Result& result, const Outcome& outcome, const std::vector<std::size_t>& knobs) {
   if (knobs.empty()) return &outcome == &result.outcomes.front() ? "default" : outcome.setting.name;
   std::string tag;
-  for (const std::size_t k : knobs) tag += (tag.empty() ? "" : ", ") + outcome.setting.choices[k].second;
+  for (const std::size_t k : knobs) {
+    const auto& [knob, value] = outcome.setting.choices[k];
+    tag += (tag.empty() ? "" : ", ") + wordOf(knob, value);
+  }
   return tag;
 }
 
@@ -101,8 +110,9 @@ Looks looksOf(const Result& result) {
     const std::vector<std::string> values = valuesOf(result, knobs[rank]);
     for (std::size_t v = 0; v < values.size(); ++v) {
       const int color = static_cast<int>(v % 6);
+      const std::string& knob = usual[knobs[rank]].first;
       looks.legend.push_back(
-          {usual[knobs[rank]].first + " " + values[v], rank == 0 ? color : -1, rank == 0 ? 0 : shapeOf(v)});
+          {knob + " " + wordOf(knob, values[v]), rank == 0 ? color : -1, rank == 0 ? 0 : shapeOf(v)});
     }
     for (std::size_t i = 0; i < looks.of.size(); ++i) {
       const std::string& value = result.outcomes[i].setting.choices[knobs[rank]].second;

@@ -58,7 +58,7 @@ std::string reportHtml(const Lecture& lecture, const std::string& command) {
   return out + "</div>\n<h2>Figures</h2>\n" + tableOf(lecture) +
          "<p class=\"caption\">Lockstep virtual time, scene <code>experiments/stability/scenes/haptic_wall.xml</code>, "
          "Presa " +
-         std::string(kVersion) + ".</p>\n<h3>Repeat this study</h3>\n<pre><code>" + escape(command) +
+         escape(versionText()) + ".</p>\n<h3>Repeat this study</h3>\n<pre><code>" + escape(command) +
          "</code></pre>\n" + page::tail();
 }
 

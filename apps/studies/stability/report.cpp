@@ -75,7 +75,7 @@ std::string reportHtml(const std::vector<Case>& cases, const std::vector<Row>& r
          "<p class=\"tools\" hidden><button type=\"button\" data-open=\"all\">open all</button><button "
          "type=\"button\" data-open=\"none\">close all</button></p>\n";
   for (const Case& c : cases) out += caseHtml(c, rows);
-  return out + "<p class=\"caption\">Presa " + std::string(kVersion) + "</p>\n<script>" + kReportScript +
+  return out + "<p class=\"caption\">Presa " + escape(versionText()) + "</p>\n<script>" + kReportScript +
          "</script>\n" + page::tail();
 }
 

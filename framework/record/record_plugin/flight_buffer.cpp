@@ -28,11 +28,11 @@ void checkFolder(const std::string& file) {
 
 }  // namespace
 
-FlightBuffer::FlightBuffer(std::shared_ptr<const World> world, RunOptions options, std::vector<std::size_t> tools)
+FlightBuffer::FlightBuffer(std::shared_ptr<const World> world, RunOptions options, RecordedDevices devices)
     : world_(std::move(world)),
       options_(std::move(options)),
-      tools_(std::move(tools)),
-      layout_(layoutOf(*world_, tools_)),
+      devices_(std::move(devices)),
+      layout_(layoutOf(*world_, devices_.tools)),
       capacity_(static_cast<std::size_t>(std::ceil(kBefore * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       after_(static_cast<std::size_t>(std::ceil(kAfter * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       kept_(capacity_ * layout_.words()) {
@@ -78,7 +78,7 @@ void FlightBuffer::begin() {
   RunOptions options = options_;
   options.record = name;
   try {
-    file_ = std::make_unique<RecordingFile>(*world_, options, tools_);
+    file_ = std::make_unique<RecordingFile>(*world_, options, devices_);
   } catch (const InputError& error) {
     throw h5::Failure(error.what());
   }

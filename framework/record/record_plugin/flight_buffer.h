@@ -13,7 +13,7 @@ class FlightBuffer final : public RowSink {
  public:
   /// options.flight names the first file; further ones are NAME-2.h5 and so on. Existing files are never
   /// replaced. Throws InputError E602 when the folder is not writable.
-  FlightBuffer(std::shared_ptr<const World> world, RunOptions options, std::vector<std::size_t> tools);
+  FlightBuffer(std::shared_ptr<const World> world, RunOptions options, RecordedDevices devices);
 
   const RowLayout& layout() const noexcept override { return layout_; }
   void nameInputs(const ScheduleInputs& inputs) override;
@@ -36,7 +36,7 @@ class FlightBuffer final : public RowSink {
 
   std::shared_ptr<const World> world_;
   const RunOptions options_;
-  const std::vector<std::size_t> tools_;
+  const RecordedDevices devices_;
   RowLayout layout_;
   std::size_t capacity_, after_;       // rows
   std::vector<std::uint64_t> kept_;    // circular buffer of `capacity_` rows

@@ -13,8 +13,8 @@ namespace {
 const presa::RecordPlugin kPlugin{
     presa::kPluginAbi,
     [](std::shared_ptr<const presa::World> world, const presa::RunOptions& options,
-       const std::vector<std::size_t>& tools) -> std::unique_ptr<presa::Recorder> {
-      return std::make_unique<presa::record::FileRecorder>(std::move(world), options, tools);
+       const presa::RecordedDevices& devices) -> std::unique_ptr<presa::Recorder> {
+      return std::make_unique<presa::record::FileRecorder>(std::move(world), options, devices);
     },
     presa::record::readRecording,
     presa::record::readSamples,

@@ -32,10 +32,10 @@ std::vector<std::int32_t> freeBodies(const Scene& scene) {
 }
 
 std::unique_ptr<RowSink> createSink(const std::shared_ptr<const World>& world, const RunOptions& options,
-                                    const std::vector<std::size_t>& tools) {
+                                    const RecordedDevices& devices) {
   const h5::Library library;
-  if (options.record.empty()) return std::make_unique<FlightBuffer>(world, options, tools);
-  return std::make_unique<RecordingFile>(*world, options, tools);
+  if (options.record.empty()) return std::make_unique<FlightBuffer>(world, options, devices);
+  return std::make_unique<RecordingFile>(*world, options, devices);
 }
 
 void copy(const Vec3& from, double (&to)[3]) noexcept { std::copy_n(from.data(), 3, to); }
@@ -46,12 +46,12 @@ void copy(const Quat& from, double (&to)[4]) noexcept {
 }  // namespace
 
 FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions& options,
-                           const std::vector<std::size_t>& tools, WriterSettings settings)
+                           const RecordedDevices& devices, WriterSettings settings)
     : Recorder("record", RateGroup::kHaptic),
       world_(std::move(world)),
       settings_(std::move(settings)),
       realtime_(options.realtime),
-      file_(createSink(world_, options, tools)),
+      file_(createSink(world_, options, devices)),
       layout_(file_->layout()),
       free_bodies_(freeBodies(world_->scene)),
       capacity_(ringRows(*world_, layout_.bytes())),

@@ -31,7 +31,7 @@ struct WriterSettings {
 /// ring and is, between construction and finish(), the only thread that touches the file.
 class FileRecorder final : public Recorder {
  public:
-  FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, const std::vector<std::size_t>& tools,
+  FileRecorder(std::shared_ptr<const World> world, const RunOptions& options, const RecordedDevices& devices,
                WriterSettings settings = {});
   ~FileRecorder() override;
 

@@ -61,6 +61,16 @@ std::string utcNow() {
 /// Size of the attribute `inputs`: 12 names of 64 characters, separated by blanks, fit.
 constexpr std::size_t kInputsBytes = 1024;
 
+/// Longest attribute of names [byte]; HDF5 has room for 64 kB.
+constexpr std::size_t kPhasesBytes = 60'000;
+
+/// Each name on a line of its own; none at all when they are too long.
+std::string lines(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += name + '\n';
+  return text.size() <= kPhasesBytes ? text : std::string();
+}
+
 /// A name as an HDF5 link name: '/' would start a sub-group.
 std::string linkName(std::string name) {
   std::replace(name.begin(), name.end(), '/', '_');
@@ -92,12 +102,12 @@ RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools) {
   return layout;
 }
 
-RecordingFile::RecordingFile(const World& world, const RunOptions& options, const std::vector<std::size_t>& tools)
-    : name_(options.record), layout_(layoutOf(world, tools)) {
+RecordingFile::RecordingFile(const World& world, const RunOptions& options, const RecordedDevices& devices)
+    : name_(options.record), layout_(layoutOf(world, devices.tools)) {
   const std::string& name = name_;
   claim(name, options.overwrite);
   try {
-    create(world, options);
+    create(world, options, devices);
     flush();
   } catch (const h5::Failure& failure) {
     file_.reset();
@@ -108,7 +118,8 @@ RecordingFile::RecordingFile(const World& world, const RunOptions& options, cons
   }
 }
 
-void RecordingFile::create(const World& world, const RunOptions& options) {
+void RecordingFile::create(const World& world, const RunOptions& options, const RecordedDevices& devices) {
+  std::uint64_t version = layout_.tools.empty() ? kToolsSince - 1 : kToolsSince;
   file_ = createFile(options.record);
   for (const char* group : {"haptic", "haptic/fingers", "haptic/bodies", "schedule"}) h5::group(file_, group);
   tables_.push_back(createTable("haptic", "ticks", tickTable()));
@@ -116,13 +127,17 @@ void RecordingFile::create(const World& world, const RunOptions& options) {
     tables_.push_back(createTable("haptic/fingers", linkName(world.scene.devices[f].role), fingerTable()));
     h5::writeAttribute(tables_.back().dataset, "finger", std::uint64_t{f});
     h5::writeAttribute(tables_.back().dataset, "fingertip_radius_m", world.scene.devices[f].fingertip_radius);
+    const std::string phases = f < devices.phases.size() ? lines(devices.phases[f]) : std::string();
+    if (phases.empty()) continue;
+    h5::writeAttribute(tables_.back().dataset, kPhasesAttribute, phases);
+    version = kPhasesSince;
   }
   for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
     if (world.scene.bodies[b].fixed) continue;
     tables_.push_back(createTable("haptic/bodies", linkName(world.scene.bodies[b].name), bodyTable()));
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
-  if (!layout_.tools.empty()) h5::group(file_, "haptic/tools");
+  if (version >= kToolsSince) h5::group(file_, "haptic/tools");
   for (const std::size_t f : layout_.tools) {
     tables_.push_back(createTable("haptic/tools", linkName(world.scene.devices[f].role), toolTable()));
     h5::writeAttribute(tables_.back().dataset, "tool", std::uint64_t{f});
@@ -132,13 +147,13 @@ void RecordingFile::create(const World& world, const RunOptions& options) {
     // with room for the names, so that they change no place in the file when they come
     h5::writeAttribute(schedule_.back().dataset, kInputsAttribute, std::string(kInputsBytes, '\0'));
   }
-  describe(world, options);
+  describe(world, options, version);
 }
 
-void RecordingFile::describe(const World& world, const RunOptions& options) {
+void RecordingFile::describe(const World& world, const RunOptions& options, std::uint64_t version) {
   const RateTable rates(world.scene.rates);
   h5::writeAttribute(file_, "format", std::string(kFormatName));
-  h5::writeAttribute(file_, "format_version", layout_.tools.empty() ? kToolsSince - 1 : kFormatVersion);
+  h5::writeAttribute(file_, "format_version", version);
   h5::writeAttribute(file_, "complete", std::uint64_t{0});
   h5::writeAttribute(file_, seal::kAttribute, seal::open());
   h5::writeAttribute(file_, "dropped", std::uint64_t{0});

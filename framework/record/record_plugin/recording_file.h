@@ -12,11 +12,15 @@
 
 namespace presa::record {
 
-/// Version of the file layout; a reader refuses a higher one. A file without tools has the version before.
+/// Version of the file layout; a reader refuses a higher one. A file without what a
+/// version added has the version before.
 inline constexpr std::uint64_t kFormatVersion =
-    8;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools
+    9;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools; 9: phases
 /// First version with haptic/tools.
 inline constexpr std::uint64_t kToolsSince = 8;
+/// Attribute of a finger's table, since format 9: the names of its phases, one a line.
+inline constexpr const char* kPhasesAttribute = "phases";
+inline constexpr std::uint64_t kPhasesSince = 9;
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;
@@ -33,7 +37,7 @@ inline constexpr const char* kMeshSumsAttribute = "mesh_sums";  ///< of the root
 class RecordingFile final : public RowSink {
  public:
   /// Throws InputError E601, E602.
-  RecordingFile(const World& world, const RunOptions& options, const std::vector<std::size_t>& tools);
+  RecordingFile(const World& world, const RunOptions& options, const RecordedDevices& devices);
 
   const RowLayout& layout() const noexcept override { return layout_; }
   void nameInputs(const ScheduleInputs& inputs) override;
@@ -59,8 +63,8 @@ class RecordingFile final : public RowSink {
     std::string path;
     Sha256 sum;  ///< of all rows
   };
-  void create(const World& world, const RunOptions& options);
-  void describe(const World& world, const RunOptions& options);
+  void create(const World& world, const RunOptions& options, const RecordedDevices& devices);
+  void describe(const World& world, const RunOptions& options, std::uint64_t version);
   TableFile createTable(const std::string& group, const std::string& name, const Table& table);
   static void appendTo(TableFile& table, const void* rows, std::size_t count);
   /// Reserves disk space for the next flush, so that a full disk is detected before the flush, not half-way through it.

@@ -22,7 +22,7 @@ double numberAt(const void* row, const Column& column) {
 /// All columns except index and time, which are the same in every table.
 template <class Row>
 RecordedTable byColumn(const StoredTable& table, const std::vector<Row>& rows) {
-  RecordedTable result{table.name, {}};
+  RecordedTable result{table.name, {}, table.phases};
   for (const Column& column : table.columns.columns) {
     if (column.name == "index" || column.name == "time") continue;
     RecordedTable::Column one{column.name, column.unit, column.description, {}};

@@ -19,7 +19,7 @@ const char* const kRootAttributes[] = {"format",          "format_version",    "
                                        "rate_view_hz",    kMeshSumsAttribute};
 const char* const kTexts[] = {"scene_xml", "rig_xml", "body_names"};
 const char* const kTableAttributes[] = {"finger", "body",         "fingertip_radius_m", "columns",
-                                        "units",  "descriptions", kInputsAttribute};
+                                        "units",  "descriptions", kInputsAttribute,     kPhasesAttribute};
 
 class Sum {
  public:

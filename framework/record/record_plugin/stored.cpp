@@ -87,6 +87,13 @@ class Structure {
     stored_.scene_bodies = look_.textCount("body_names", kMaxBodies);
   }
 
+  std::vector<std::string> phases(const std::string& path) {
+    std::vector<std::string> names;
+    std::istringstream lines(look_.text(path, kPhasesAttribute));
+    for (std::string name; std::getline(lines, name);) names.push_back(std::move(name));
+    return names;
+  }
+
   /// Names of ports, as many as a row has versions at most, none twice.
   std::vector<std::string> inputs(const std::string& path) {
     std::vector<std::string> names;
@@ -129,6 +136,7 @@ class Structure {
       if (!table(path + '/' + name, columns, one)) continue;
       const auto place = look_.count(one.path, number, 0, max - 1);
       one.place = place.value_or(0);
+      if (h5::hasAttribute(one.dataset, kPhasesAttribute)) one.phases = phases(one.path);
       numbered = numbered && place.has_value();
       tables.push_back(std::move(one));
     }

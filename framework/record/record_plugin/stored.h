@@ -21,9 +21,10 @@ struct StoredTable {
   std::string path;  ///< "haptic/fingers/thumb"
   std::string name;  ///< "thumb"
   h5::Handle dataset;
-  Table columns;            ///< as in the file's format version
-  std::uint64_t rows = 0;   ///< stored rows
-  std::uint64_t place = 0;  ///< index of the finger among the roles, or of the body in the scene
+  Table columns;                      ///< as in the file's format version
+  std::uint64_t rows = 0;             ///< stored rows
+  std::uint64_t place = 0;            ///< index of the finger among the roles, or of the body in the scene
+  std::vector<std::string> phases{};  ///< of a finger, since format 9
 };
 
 /// A recording whose structure has been checked, before its rows are read.

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "framework/core/schedule/clock.h"
 
 namespace presa {
@@ -107,6 +110,58 @@ TEST(Pacer, DoesNotRunAfterAStall) {
   held.step(0.02);
   held.step(0.06);
   EXPECT_GE(static_cast<double>(monotonicNs() - begin) * 1e-9, 0.04 - 1e-3);
+}
+
+std::int64_t virtual_ns = 0;  // the wall's time of the tests below
+
+struct Drawn {
+  int pictures = 0;
+  double wall = 0, longest_gap = 0;  // [s]
+};
+
+// Ten simulated seconds in virtual time; of each step of 1/60 s the picture costs `drawing`, all else `work` [ms].
+Drawn drawnIn(int drawing, int work) {
+  virtual_ns = 0;
+  TimeControl time_control;
+  RunControl control;
+  View* view = nullptr;
+  std::function<void(double)> meanwhile;
+  Pacer pacer(time_control, view, control, meanwhile,
+              {[]() noexcept { return virtual_ns; }, [](std::int64_t until) noexcept { virtual_ns = until; }});
+  Drawn drawn;
+  std::int64_t last = 0;
+  for (std::uint64_t i = 0; i <= 600; ++i) {
+    virtual_ns += work * 1'000'000;
+    if (!time_control.skip_picture) {
+      drawn.longest_gap = std::max(drawn.longest_gap, static_cast<double>(virtual_ns - last) * 1e-9);
+      last = virtual_ns;
+      ++drawn.pictures;
+      virtual_ns += drawing * 1'000'000;
+    }
+    pacer.step({i, static_cast<double>(i) / 60, 1.0 / 60});
+  }
+  drawn.wall = static_cast<double>(virtual_ns) * 1e-9;
+  return drawn;
+}
+
+// Drawing does not slow a run: its ten seconds take ten, but for the first step before time begins, and the delay of
+// the last picture. The time that the work leaves free is drawn in: (10 s - 600 work) / drawing pictures.
+TEST(Pacer, LeavesPicturesOutRatherThanTime) {
+  for (const auto& [drawing, work] : {std::pair{31, 2}, {60, 5}, {120, 1}, {190, 3}}) {
+    const Drawn drawn = drawnIn(drawing, work);
+    const double late = (2.0 * drawing + work + 17) * 1e-3;
+    EXPECT_LE(drawn.wall, 10 + late) << drawing;
+    EXPECT_NEAR(drawn.pictures, (10 - 600 * work * 1e-3) / (drawing * 1e-3), 2 + drawn.pictures * 0.02) << drawing;
+    EXPECT_LE(drawn.longest_gap, 0.25 + drawing * 1e-3);
+  }
+}
+
+// A run that is slower than the clock by itself still shows 4 pictures a second; a fast one shows every step.
+TEST(Pacer, ShowsFourPicturesASecondWhereTheRunIsLate) {
+  const Drawn slow = drawnIn(40, 20);  // 12 s of work
+  EXPECT_GE(slow.pictures, 4 * slow.wall);
+  EXPECT_LE(slow.longest_gap, 0.25 + 20e-3);
+  EXPECT_EQ(drawnIn(8, 4).pictures, 601);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "apps/common/file_text.h"
 #include "apps/presa/replay_page/packed.h"
 #include "apps/presa/replay_page/replay_page.h"
+#include "apps/presa/replay_page/signals.h"
 #include "framework/record/record_plugin.h"
 #include "tests/apps/presa/support.h"
 
@@ -297,6 +298,24 @@ TEST(ReplayPage, AFaultIsMarked) {
   EXPECT_NEAR(jumped.value[0][0]["time"].get<double>(), 0.502, 0.003);
   EXPECT_EQ(jumped.value[1], jumped.value[0][0]["time"]);
   std::filesystem::remove_all(folder);
+}
+
+// Names come from the recording; those of the rig's files stand in for a recording of before.
+TEST(ReplayPage, NamesThePhasesAsTheRecordingDoes) {
+  RecordedSamples samples = recordPlugin().samples(recorded("config/scenes/cube.xml"));
+  const auto first = [&] { return replay_page::phasesOf(samples, {"of the rig"})[0]["name"].get<std::string>(); };
+  EXPECT_EQ(first(), "reach");  // config/motions/pinch_cube.xml
+  for (RecordedTable& finger : samples.fingers) finger.phases.clear();
+  EXPECT_EQ(first(), "of the rig");
+}
+
+// Eight fingers, as the two of the cube four times over.
+TEST(ReplayPage, EightFingersStayWithinTheBudget) {
+  const std::string file = recorded("config/scenes/cube.xml");
+  const Recording recording = recordPlugin().read(file);
+  RecordedSamples samples = recordPlugin().samples(file);
+  for (int copy = 0; copy < 6; ++copy) samples.fingers.push_back(samples.fingers[static_cast<std::size_t>(copy)]);
+  EXPECT_LE(replay_page::page(recording, samples, "").size(), kMaxPage - 1'000'000);  // room for three.js
 }
 
 // Ten minutes, as the ten seconds of the cube 60 times over, at a quarter of the rate (the budget knows rows alone).

@@ -101,7 +101,7 @@ TEST(ReportPlots, DrawWhatTheDeviceGotAndMarkTheFault) {
 }
 
 // Headings without anything below them.
-TEST(ReportPlots, LeaveOutFingersThatAreNotThere) {
+TEST(ReportPlots, LeaveOutFingersAndBodiesThatAreNotThere) {
   HeldRun run;
   EXPECT_NE(reportHtml(run.result).find("<h2>Friction</h2>"), std::string::npos);
   run.result.contact_points.clear();
@@ -109,6 +109,8 @@ TEST(ReportPlots, LeaveOutFingersThatAreNotThere) {
   for (const char* heading : {"<h2>Position", "<h2>Friction", "<h2>Contact points"})
     EXPECT_EQ(page.find(heading), std::string::npos) << heading;
   EXPECT_NE(page.find("<h2>Objects</h2>"), std::string::npos);
+  run.result.objects.clear();
+  EXPECT_EQ(reportHtml(run.result).find("<h2>Objects</h2>"), std::string::npos);
 }
 
 // Vertical lines of the grid lay over the curves and titles, and cut them.
@@ -198,6 +200,22 @@ TEST(ReportPlots, SayWhenAndWhereTheRunWas) {
   EXPECT_TRUE(std::regex_search(page, std::regex("<td>machine</td><td>[^<]+ cores, [^<]+</td>")));
   EXPECT_TRUE(
       std::regex_search(page, std::regex("<td>Presa version</td><td>0\\.1\\.0(, commit [0-9a-f]{7,}(-dirty)?)?</td>")));
+}
+
+// A steep ray ran through the words of the legend; a curve without points had an entry, and an empty path.
+TEST(ReportPlots, KeepTheLegendOfFrictionClearOfTheRays) {
+  svg::ScatterFigure figure;
+  figure.clouds = {{"stick", "stick", {{1, 0.1}, {2, 0.2}}}, {"slip", "slip", {}}};
+  figure.rays = {{"slip line", "static", 3}};
+  const std::string html = svg::render(figure), drawn = html.substr(0, html.find("</svg>"));
+  const auto numberAfter = [&](std::size_t at, const std::string& attribute) {
+    return std::stod(drawn.substr(drawn.find(attribute, at) + attribute.size()));
+  };
+  const double ray_top = numberAfter(drawn.find("<line class=\"ray static\""), "y2=\"");
+  EXPECT_LT(numberAfter(drawn.rfind("<text class=\"legend\""), " y=\""), ray_top)
+      << "the last line of the legend is above the ray's end";
+  EXPECT_EQ(drawn.find("d=\"\""), std::string::npos);
+  EXPECT_EQ(countOf(drawn, "class=\"legend\""), 2u);
 }
 
 }  // namespace

@@ -109,12 +109,12 @@ ScheduleInputs inputsOfAll() {
   return inputs;
 }
 
-RecordedRun::RecordedRun(const RecordedSetup& setup, WriterSettings settings)
+RecordedRun::RecordedRun(const RecordedSetup& setup, WriterSettings settings, RecordedDevices devices)
     : rates(setup.world->scene.rates), recorder(nullptr), graph([&] {
         GraphBuilder builder;
         builder.add(std::make_unique<Source>());
-        recorder = &builder.add(std::make_unique<FileRecorder>(setup.world, setup.options, std::vector<std::size_t>{},
-                                                               std::move(settings)));
+        recorder = &builder.add(
+            std::make_unique<FileRecorder>(setup.world, setup.options, std::move(devices), std::move(settings)));
         schedule.inputs = inputsOfAll();
         recorder->attach(schedule);
         builder.connectByName();

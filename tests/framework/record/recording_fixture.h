@@ -61,7 +61,7 @@ ScheduleInputs inputsOfAll();
 
 /// A recorder connected to a Source in one graph.
 struct RecordedRun {
-  explicit RecordedRun(const RecordedSetup& setup, WriterSettings settings = {});
+  explicit RecordedRun(const RecordedSetup& setup, WriterSettings settings = {}, RecordedDevices devices = {});
   ~RecordedRun();
   void step(std::uint64_t ticks);
 

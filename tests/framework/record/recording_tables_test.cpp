@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "framework/record/record_plugin/reader.h"
 #include "framework/record/record_plugin/samples.h"
 #include "tests/framework/record/recording_fixture.h"
 
@@ -113,6 +114,22 @@ TEST_F(RecordingTables, ComeBackByColumn) {
   }
   EXPECT_EQ(cube.columns[1].unit, "m");
   EXPECT_THROW(cube.values("none"), std::out_of_range);
+}
+
+// The names of a scripted motion's phases stay with the column that counts them, under the checksum of the file. A file
+// without any keeps the format that older programs read (record_faults_test: kToolsSince - 1).
+TEST(RecordedPhases, HaveTheirNames) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("run.h5");
+  const std::vector<std::string> names{"reach", "lift \xc3\xa0 deux"};
+  RecordedRun run(recordedSetup(file, false), {}, {.tools = {}, .phases = {{}, names}});
+  run.step(20);
+  run.recorder->finish();
+  const RecordedSamples samples = readSamples(file);
+  EXPECT_TRUE(samples.checksum);
+  EXPECT_EQ(samples.fingers[0].phases, std::vector<std::string>{});
+  EXPECT_EQ(samples.fingers[1].phases, names);
+  EXPECT_EQ(differenceFromPrefix(readRecording(file)), "");
 }
 
 }  // namespace
