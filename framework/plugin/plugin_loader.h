@@ -5,7 +5,7 @@
 namespace presa {
 
 /// Version of the interface between the program and its plug-ins; a plug-in of another version is refused (E510).
-inline constexpr int kPluginAbi = 26;
+inline constexpr int kPluginAbi = 27;
 
 /// Address of the C symbol `symbol` in the plug-in `presa_<name>.so`. The plug-in is looked for in the folders of the
 /// environment variable PRESA_PLUGIN_PATH (separated by colons), then beside the framework library; it is loaded at the

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kIgnore = 0.3;  // share of visitors who ignore what they are shown
 constexpr double kDepthGuessed = 0.03, kDepthSeen = 0.008, kAcross = 0.002;  // [m]
+const double kSeenFrom = std::sin(26 * std::numbers::pi / 180);  // these depths are guessed from 26 degrees above
 constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;           // [m]
 constexpr double kReaction = 0.5, kLongPause = 0.1;  // median of a pause [s]; share of long ones
 constexpr int kMaxTries = 6;                         // of one aim, before it starts again
@@ -96,11 +97,13 @@ Vec3 NaiveVisitor::fingers() const { return (device_->fingers[0].p_WH + device_-
 
 double NaiveVisitor::opening() const { return (device_->fingers[0].p_WH - device_->fingers[1].p_WH).norm(); }
 
-/// Where a point seems to be: right across the line of sight, a guess along it.
+/// Where a point seems to be: right across the line of sight, a guess along it, which gets worse the more the ground is
+/// seen from its edge.
 Vec3 NaiveVisitor::guess(const Vec3& p_W) {
   const view::CameraAxes axes = camera_.axes();
   const Vec3 level = Vec3::UnitZ().cross(axes.right);
-  return p_W + kAcross * random_.normal() * axes.right + depth_ * random_.normal() * level +
+  const double down = std::max(0.1, -(p_W - camera_.pose().eye).normalized().z());
+  return p_W + kAcross * random_.normal() * axes.right + depth_ * kSeenFrom / down * random_.normal() * level +
          kAcross * random_.normal() * Vec3::UnitZ();
 }
 

@@ -69,7 +69,7 @@ class NaiveVisitor final : public Module {
   RandomStream random_;
   view::PointerControl pointer_{{0, 1}};
   view::CameraControl camera_{16.0 / 9};
-  view::FollowCamera follow_{PictureOptions{}};
+  view::FollowCamera follow_{PictureOptions{}, view::kEyeLevel};
   MouseHand hand_;
   Known known_;
   bool ignores_ = false;
