@@ -35,7 +35,8 @@ constexpr double kFinish = 42;           // time to show the result to spectator
 constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
-  std::string size, parameters, folder, rig, view, screenshot, video, summary, language = "en", plan = "vitruvius", sound_file;
+  std::string size, parameters, folder, rig, view, screenshot, video, summary, language = "en", plan = "vitruvius",
+                                                                               sound_file;
   std::vector<std::string> show;  // as in RunOptions
   PictureArguments asked;
   std::string visits;                    // folder of saved visits; empty: the default
@@ -227,25 +228,26 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
 
-  temple::VisitSettings settings{.finish = !a.automatic   ? -1
-                                           : a.realtime() ? kFinish
-                                                          : kLetGo,
-                                 .time_scale = a.time_scale,
-                                 .quiet = a.lockstep || a.quiet,
-                                 .attract = a.automatic ? 0 : a.attract,
-                                 .attracting = a.attracting,
-                                 .folder = visitFolder(a),
-                                 .start = std::move(start),
-                                 .language = a.language,
-                                 .voice = a.voice,
-                                 .sound = a.sound || soundByItself(a),
-                                 .sound_file = a.sound_file,
-                                 .density = proportions.stone.density,
-                                 .full_size = proportions.full_size > 0 ? proportions.full_size / proportions.module : 1,
-                                 .counts = countsFile(a),
-                                 .task = temple::taskWords(a.language, a.size),
-                                 .next = temple::taskWords(a.language, nextTask(a)),
-                                 .help = !a.no_help};
+  temple::VisitSettings settings{
+      .finish = !a.automatic   ? -1
+                : a.realtime() ? kFinish
+                               : kLetGo,
+      .time_scale = a.time_scale,
+      .quiet = a.lockstep || a.quiet,
+      .attract = a.automatic ? 0 : a.attract,
+      .attracting = a.attracting,
+      .folder = visitFolder(a),
+      .start = std::move(start),
+      .language = a.language,
+      .voice = a.voice,
+      .sound = a.sound || soundByItself(a),
+      .sound_file = a.sound_file,
+      .density = proportions.stone.density,
+      .full_size = proportions.full_size > 0 ? proportions.full_size / proportions.module : 1,
+      .counts = countsFile(a),
+      .task = temple::taskWords(a.language, a.size),
+      .next = temple::taskWords(a.language, nextTask(a)),
+      .help = !a.no_help};
   if (!a.lockstep) return temple::visit(std::move(loaded), settings);
   terminal::JobProgress progress(building.blocks.size());
   int done = 0;
@@ -335,8 +337,7 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
 
 int showCounts(const Arguments& a) {
   Diagnostics diagnostics;
-  const std::string table =
-      temple::countsTable(a.counts.empty() ? temple::defaultCountsFile() : a.counts, diagnostics);
+  const std::string table = temple::countsTable(a.counts.empty() ? temple::defaultCountsFile() : a.counts, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   std::fputs(table.c_str(), stdout);
   return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
@@ -380,17 +381,19 @@ void addTemple(Command app, int& status) {
                  "folder for log.jsonl (events, no personal data) and session.json (blocks in place), or none\n"
                  "(default against the clock: " +
                      temple::defaultVisitFolder() + ", else none)");
-  command.option(
-      "--count", a->counts,
-      "file to which visits are added, one line for each that begins, is finished or left: day, task, seconds; or none\n"
-      "(default against the clock: " +
-          temple::defaultCountsFile() + ", else none)");
+  command.option("--count", a->counts,
+                 "file to which visits are added, one line for each that begins, is finished or left: day, task, "
+                 "seconds; or none\n"
+                 "(default against the clock: " +
+                     temple::defaultCountsFile() + ", else none)");
   command.flag("--counts", a->show_counts, "show the visits counted in that file, by day and task, and end");
   command.flag("--one-task", a->one_task, "stay with this task: no larger one is offered when it is finished");
-  Option attract = command
-      .option("--attract", a->attract,
+  Option attract =
+      command
+          .option(
+              "--attract", a->attract,
               "after this many seconds without a touch, simulated hands continue until the next touch (default: never)")
-      .positive();
+          .positive();
   command.option("--continue", a->kept, "continue from a session.json, also after a crash (default: that of --session)")
       .values(0, 1);
   command
@@ -399,23 +402,25 @@ void addTemple(Command app, int& status) {
               "(default: first for a visitor with a mouse, else column)")
       .oneOf(temple::shippedNames());
   command
-      .option("--plan", a->plan,
-              "measures after vitruvius (De architectura), or of the parthenon, which name their sources in config/temple\n"
-              "(the first task has its own)")
+      .option(
+          "--plan", a->plan,
+          "measures after vitruvius (De architectura), or of the parthenon, which name their sources in config/temple\n"
+          "(the first task has its own)")
       .oneOf(temple::shippedPlans())
       .showDefault();
   command.flag("--no-help", a->no_help,
                "do not help a visitor with a mouse to grasp (the help fades with every block placed; a device that is "
                "felt never gets any)");
   Option voice = command.flag("--voice", a->voice,
-               "read the sentences about the blocks aloud, in the language of the texts (espeak-ng)");
+                              "read the sentences about the blocks aloud, in the language of the texts (espeak-ng)");
   command.flag("--assembled,--no-ruins", a->assembled,
                "every block where it belongs, instead of ruins strewn by a physics drop");
   Option sound = command.flag("--sound", a->sound,
                               "play stone on stone (aplay; without this option where a window and a sound device are)");
   command.option("--sound-file", a->sound_file, "WAV of what stone on stone sounds like in the visit; plays nothing");
-  command.flag("--quiet", a->quiet,
-               "for whoever looks after an exhibit: no sound, no voice, no simulated hands, no line in the terminal")
+  command
+      .flag("--quiet", a->quiet,
+            "for whoever looks after an exhibit: no sound, no voice, no simulated hands, no line in the terminal")
       .excludes(voice)
       .excludes(sound)
       .excludes(attract);

@@ -32,7 +32,10 @@ constexpr double kOffered = 12, kOnward = 60, kOnwardUntouched = 30;
 class Visit {
  public:
   Visit(Loaded loaded, const VisitSettings& settings)
-      : settings_(settings), world_(loaded.world), options_(loaded.options), assembly_(*world_->scene.assembly),
+      : settings_(settings),
+        world_(loaded.world),
+        options_(loaded.options),
+        assembly_(*world_->scene.assembly),
         counts_(settings.counts, settings.start.size) {
     auto rebuild_observer = std::make_unique<RebuildObserver>(world_);
     auto observer = std::make_unique<VisitObserver>(*world_);
@@ -197,7 +200,7 @@ class Visit {
   std::optional<Voice> voice_;
   HitWatch* hits_ = nullptr;  // owned by the run; null: nothing is heard
   std::unique_ptr<Loudspeaker> loudspeaker_;
-  std::vector<Hit> heard_;  // for the file
+  std::vector<Hit> heard_;         // for the file
   std::optional<double> done_at_;  // [s]
   std::uint32_t undone_ = 0, inputs_ = 0, onwards_ = 0;
   VisitCounts counts_;

@@ -16,19 +16,19 @@ struct VisitSettings {
   bool quiet = false;     ///< no status line
   /// Idle time after which simulated hands take over, until the visitor's next input [simulated s]; 0: never.
   double attract = 0;
-  bool attracting = false;  ///< the simulated hands begin
-  std::string folder{};     ///< folder for saving (VisitLog); empty: not saved
-  KeptSession start{};      ///< initial state
-  std::string language{};   ///< language, for the log
-  bool voice = false;       ///< read the sentences about the blocks aloud (Voice)
-  bool sound = false;       ///< play stone on stone (Loudspeaker)
-  std::string sound_file{}; ///< WAV of it, written at the end; empty: none
-  double density = 2000;    ///< of the stones [kg/m³]
-  double full_size = 1;     ///< size of the building over that of its model
-  std::string counts{};     ///< file to which the visit is added (VisitCounts); empty: none
-  TaskWords task{};         ///< `stands`: told when it is complete
-  TaskWords next{};         ///< `offers`: told after that, and begun (VisitEnd::onward); empty: no next task
-  bool help = true;         ///< help a visitor with a mouse to grasp (GraspHelp); no effect on devices that are felt
+  bool attracting = false;   ///< the simulated hands begin
+  std::string folder{};      ///< folder for saving (VisitLog); empty: not saved
+  KeptSession start{};       ///< initial state
+  std::string language{};    ///< language, for the log
+  bool voice = false;        ///< read the sentences about the blocks aloud (Voice)
+  bool sound = false;        ///< play stone on stone (Loudspeaker)
+  std::string sound_file{};  ///< WAV of it, written at the end; empty: none
+  double density = 2000;     ///< of the stones [kg/m³]
+  double full_size = 1;      ///< size of the building over that of its model
+  std::string counts{};      ///< file to which the visit is added (VisitCounts); empty: none
+  TaskWords task{};          ///< `stands`: told when it is complete
+  TaskWords next{};          ///< `offers`: told after that, and begun (VisitEnd::onward); empty: no next task
+  bool help = true;          ///< help a visitor with a mouse to grasp (GraspHelp); no effect on devices that are felt
   std::function<bool(int placed, int pieces)> progress = {};  ///< called regularly; return false to stop
 };
 

@@ -102,9 +102,9 @@ void VisitCounts::append(const char* what, double seconds) const {
 std::string defaultCountsFile() {
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
-  const std::filesystem::path base = data != nullptr && *data != '\0'   ? std::filesystem::path(data)
-                                     : home != nullptr                  ? std::filesystem::path(home) / ".local/share"
-                                                                        : std::filesystem::temp_directory_path();
+  const std::filesystem::path base = data != nullptr && *data != '\0' ? std::filesystem::path(data)
+                                     : home != nullptr                ? std::filesystem::path(home) / ".local/share"
+                                                                      : std::filesystem::temp_directory_path();
   return (base / "presa" / "temple" / "visits.csv").string();
 }
 

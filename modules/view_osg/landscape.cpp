@@ -13,7 +13,7 @@ namespace presa::view {
 namespace {
 
 constexpr std::array kRings{1.0, 1.06, 1.15, 1.3, 1.55, 1.9, 2.4, 3.0, 3.7, 4.6, 5.6, 6.8, 8.2, 10.0, 12.0};
-constexpr Roundness kAround{240, 1};
+constexpr Roundness kAround{180, 1};
 
 double step(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);

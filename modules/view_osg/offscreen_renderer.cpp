@@ -77,8 +77,7 @@ class OffscreenRenderer final : public Renderer {
  private:
   CameraPose cameraNow() {
     if (const std::optional<CameraPose> place = follow_.choice().place()) return *place;
-    const CameraPose pose =
-        follow_.at(picture_.time(), picture_.subject(), aspect_, picture_.usedWidth(), false);
+    const CameraPose pose = follow_.at(picture_.time(), picture_.subject(), aspect_, picture_.usedWidth(), false);
     const double finished = picture_.finishedFor();
     return finished < 0 ? pose : walk_.at(finished, 0, pose, picture_.middleOfGoals());
   }

@@ -118,7 +118,8 @@ void Picture::setQuick(bool quick) {
   bodies_.setQuick(quick);
   glyphs_.setQuick(quick);
   floor_->removeChildren(0, floor_->getNumChildren());
-  floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_, lighting_.reach() * kShadows * floor_radius_ / kFloorReach, quick));
+  floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_,
+                             lighting_.reach() * kShadows * floor_radius_ / kFloorReach, quick));
   watch_->measureShapes();
 }
 
@@ -211,7 +212,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   showOffsets(parts[ShownPart::kOffset], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius)) watch_->changeAll();
+  if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius))
+    watch_->changeAll();
   lighting_.beginFrame(changed(frame, fingers, parts, focus.radius));
 }
 

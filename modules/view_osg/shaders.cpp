@@ -235,7 +235,9 @@ uniform vec3 grain_offset;
 out vec3 sunny, shaded, closed;
 out vec3 key_at, sky_at;  // in the maps
 out vec3 at;              // of the texture
+#ifdef OPEN
 out vec3 far_away;
+#endif
 vec3 toDisplay(vec3 linear);
 vec3 daylight(vec3 n, float key, float open);
 vec3 landColor(vec3 n);
@@ -248,7 +250,9 @@ void main() {
   float shine = GLOSS > 0.0 ? 0.5 * GLOSS * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
   sunny = toDisplay(gl_Color.rgb * daylight(n, key, 1.0) + vec3(shine));
   shaded = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0));
+#ifdef OPEN
   far_away = toDisplay(landColor(vec3(0, 0, 1)));
+#endif
   closed = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
   key_at = (key_matrix * vec4(p + n * (0.0008 + 0.0015 * (1.0 - key)), 1.0)).xyz;
   sky_at = (sky_matrix * vec4(p + n * 0.0015, 1.0)).xyz;
@@ -265,7 +269,9 @@ uniform sampler2D ground_map;
 in vec3 sunny, shaded, closed;
 in vec3 key_at, sky_at;
 in vec3 at;
+#ifdef OPEN
 in vec3 far_away;
+#endif
 uniform vec3 floor_center;
 uniform float floor_radius;
 uniform vec2 picture_size;

@@ -11,7 +11,7 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kPerson = 1.7;          // height [m]
+constexpr double kPerson = 1.7;         // height [m]
 constexpr double kBehindStones = 0.22;  // of the person; stones fall before it [m]
 
 /// Sets block on block, from the ground up. `level_` is the height reached so far.
@@ -63,10 +63,9 @@ class Builder {
       // a lone column stands on a piece of its building's steps, which is cut off on the other sides
       const double beyond = m(p_.steps.beyond) + (p_.entablature ? treads : 0);
       const double before = m(Proportions::Steps::kBeforeAxis) + treads;
-      building_.footings.push_back(
-          {"step" + std::to_string(i + 1),
-           {{0, behind_ + (beyond - before) / 2, level_ + height / 2}, Quat::Identity()},
-           {span_ + 2 * beyond, before + beyond, height}});
+      building_.footings.push_back({"step" + std::to_string(i + 1),
+                                    {{0, behind_ + (beyond - before) / 2, level_ + height / 2}, Quat::Identity()},
+                                    {span_ + 2 * beyond, before + beyond, height}});
       level_ += height;
     }
   }

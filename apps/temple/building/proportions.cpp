@@ -96,11 +96,16 @@ Proportions::Column readColumn(const Part& part, Diagnostics& diagnostics) {
 }
 
 Proportions::Entablature readEntablature(const Part& part, Diagnostics& diagnostics) {
-  const Proportions::Entablature e{part.numbers("intervals"),         part.number("depth"),
-                                   part.number("architrave_height"),  part.number("taenia_height"),
-                                   part.number("triglyph_width"),     part.number("frieze_height"),
-                                   part.number("band_height"),        part.number("cornice_height"),
-                                   part.number("cornice_projection"), part.count("cornice_blocks"),
+  const Proportions::Entablature e{part.numbers("intervals"),
+                                   part.number("depth"),
+                                   part.number("architrave_height"),
+                                   part.number("taenia_height"),
+                                   part.number("triglyph_width"),
+                                   part.number("frieze_height"),
+                                   part.number("band_height"),
+                                   part.number("cornice_height"),
+                                   part.number("cornice_projection"),
+                                   part.count("cornice_blocks"),
                                    part.number("metope_width", part.number("frieze_height"))};
   for (const double interval : e.intervals) {
     const double triglyphs = interval / e.triglyphSpacing();
@@ -180,9 +185,9 @@ Proportions readProportions(const std::string& file, Diagnostics& diagnostics) {
 }
 
 Proportions shippedProportions(const std::string& name, Diagnostics& diagnostics) {
-  const char* text = name == "first"    ? shipped::first
-                     : name == "column" ? shipped::column
-                     : name == "facade" ? shipped::facade
+  const char* text = name == "first"              ? shipped::first
+                     : name == "column"           ? shipped::column
+                     : name == "facade"           ? shipped::facade
                      : name == "parthenon_column" ? shipped::parthenon_column
                      : name == "parthenon_facade" ? shipped::parthenon_facade
                                                   : nullptr;

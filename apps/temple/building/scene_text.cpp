@@ -101,8 +101,7 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
       "    <material name=\"cloth\" stiffness=\"1000\" color=\"0.50 0.24 0.15\">"
       "<friction static=\"0.5\" dynamic=\"0.4\"/></material>\n"
       "  </materials>\n";
-  for (const SceneSpec::Stone& stone : spec.stones)
-    text += bodyText(building.blocks[stone.block], stone, spec);
+  for (const SceneSpec::Stone& stone : spec.stones) text += bodyText(building.blocks[stone.block], stone, spec);
   constexpr double kThick = 0.04;
   text += footingText("ground", "earth", {{0, 0, -kThick / 2}, Quat::Identity()}, {2 * kGroundX, 2 * kGroundY, kThick});
   for (const Footing& step : building.footings) text += footingText(step.name, "limestone", step.X_WB, step.size);

@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kPlayer = "aplay";
 constexpr int kChunk = kSampleRate / 100;
 constexpr std::size_t kMostPending = 16 * kChunk;  // [byte]
-constexpr double kAhead = 0.04;  // samples are written this long before they are heard [s]
+constexpr double kAhead = 0.04;                    // samples are written this long before they are heard [s]
 
 }  // namespace
 
@@ -51,8 +51,8 @@ Loudspeaker::Loudspeaker() {
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
   const std::string rate = std::to_string(kSampleRate);
-  const std::array<const char*, 12> words{kPlayer, "-q",  "-t", "raw",       "-f",                   "S16_LE",
-                                          "-c",    "1",   "-r", rate.c_str(), "--buffer-time=60000", nullptr};
+  const std::array<const char*, 12> words{
+      kPlayer, "-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", rate.c_str(), "--buffer-time=60000", nullptr};
   if (posix_spawnp(&player_, kPlayer, &actions, nullptr, const_cast<char**>(words.data()), environ) != 0) player_ = -1;
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);

@@ -9,10 +9,10 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kLongest = 1800;                   // of a WAV file [s]
-constexpr std::array kRatios{1.0, 1.6, 2.3, 2.9};   // of a block's other frequencies to its lowest: chosen by ear
-constexpr std::array kShares{0.5, 0.25, 0.15, 0.1}; // of the amplitude
-constexpr double kHighest = 12000;                  // [Hz]
+constexpr double kLongest = 1800;                    // of a WAV file [s]
+constexpr std::array kRatios{1.0, 1.6, 2.3, 2.9};    // of a block's other frequencies to its lowest: chosen by ear
+constexpr std::array kShares{0.5, 0.25, 0.15, 0.1};  // of the amplitude
+constexpr double kHighest = 12000;                   // [Hz]
 
 void appendNumber(std::string& text, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xffU);
@@ -23,8 +23,8 @@ void appendNumber(std::string& text, std::uint32_t value, int bytes) {
 void StoneSound::add(const Hit& hit, double begin, std::vector<float>& samples) {
   const double loud = std::min(1.0, hit.speed);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil((hit.time - begin) * kSampleRate));
-  const auto last = std::min(static_cast<std::ptrdiff_t>(samples.size()),
-                             first + static_cast<std::ptrdiff_t>(kLasts * kSampleRate));
+  const auto last =
+      std::min(static_cast<std::ptrdiff_t>(samples.size()), first + static_cast<std::ptrdiff_t>(kLasts * kSampleRate));
   for (std::size_t mode = 0; mode < kRatios.size(); ++mode) {
     const double frequency = kRatios[mode] * lowest(hit);
     if (frequency > kHighest) break;

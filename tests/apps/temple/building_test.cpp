@@ -48,7 +48,8 @@ TEST_P(Neighbours, TouchWhatTheyStandOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Buildings, Neighbours, ::testing::Values("first", "column", "facade"));
+INSTANTIATE_TEST_SUITE_P(Buildings, Neighbours,
+                         ::testing::Values("first", "column", "facade", "parthenon_column", "parthenon_facade"));
 
 TEST(First, HasThreePieces) {
   const Building first = shippedBuilding("first");
@@ -109,7 +110,8 @@ TEST(Figure, IsAPersonAtTheBuildingsScale) {
 // whole height; chips of up to 1.2 mm may be missing from corners.
 TEST(Facade, ClosesItsRidge) {
   const Building facade = shippedBuilding("facade");
-  for (const auto& [left, right] : {std::pair{"raking_cornice_left", "raking_cornice_right"}, {"tile_left2", "tile_right2"}}) {
+  for (const auto& [left, right] :
+       {std::pair{"raking_cornice_left", "raking_cornice_right"}, {"tile_left2", "tile_right2"}}) {
     for (const int side : {-1, 1}) {
       const Block& block = blockNamed(facade, side < 0 ? left : right);
       const double half = std::get<Box>(block.physics).size.z() / 2;

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kIgnore = 0.3;  // share of visitors who ignore what they are shown
 constexpr double kDepthGuessed = 0.03, kDepthSeen = 0.008, kAcross = 0.002;  // [m]
-const double kSeenFrom = std::sin(26 * std::numbers::pi / 180);  // these depths are guessed from 26 degrees above
-constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;           // [m]
-constexpr double kReaction = 0.5, kLongPause = 0.1;  // median of a pause [s]; share of long ones
-constexpr int kMaxTries = 6;                         // of one aim, before it starts again
+const double kSeenFrom = std::sin(26 * std::numbers::pi / 180);     // these depths are guessed from 26 degrees above
+constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;  // [m]
+constexpr double kReaction = 0.5, kLongPause = 0.1;                 // median of a pause [s]; share of long ones
+constexpr int kMaxTries = 6;                                        // of one aim, before it starts again
 
 double yawOff(const Pose& X_WB, const AssemblyGoal& goal) {
   return poseDifference(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB).angle;
