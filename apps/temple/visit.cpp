@@ -25,6 +25,7 @@
 namespace presa::temple {
 namespace {
 
+constexpr double kPutDown = 0.15;    // as what a stone is heard that is put into its place [m/s]
 constexpr double kShownFinish = 10;  // pause after the hands have finished, before the next ruins [s]
 // after completion: until the next task is offered, until it begins, and since the last touch at the least [s]
 constexpr double kOffered = 12, kOnward = 60, kOnwardUntouched = 30;
@@ -73,7 +74,7 @@ class Visit {
     rebuilt.interrupted = result.interrupted;
     if (log_) log_->note("end", rebuilt.simulated_seconds);
     counts_.leave(rebuilt.simulated_seconds);
-    if (hits_ != nullptr) hear();
+    if (hits_ != nullptr) hear({});
     if (!settings_.sound_file.empty()) writeFileAtomically(settings_.sound_file, wavOf(heard_));
     return {rebuilt, onward_, again_};
   }
@@ -99,10 +100,11 @@ class Visit {
   bool watch(Session& session, char key) {
     observer_->showOn(session.view());
     const VisitObserver::Snapshot snapshot = observer_->snapshot();
-    if (log_) log_->note(observer_->takeEvents(), snapshot);
+    const std::vector<GuideEvent> events = observer_->takeEvents();
+    if (log_) log_->note(events, snapshot);
     if (log_ && help_level_ != nullptr) log_->note(help_level_->takeNotes());
     if (voice_) speak(snapshot.now);
-    if (hits_ != nullptr) hear();
+    if (hits_ != nullptr) hear(events);
     const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
     const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
     if (settings_.attract > 0) takeTurns(snapshot, touched);
@@ -137,8 +139,12 @@ class Visit {
     onward_ = !settings_.next.offers.empty() && (asked || time >= begins);
   }
 
-  void hear() {
-    for (const Hit& hit : hits_->take()) {
+  void hear(const std::vector<GuideEvent>& events) {
+    std::vector<Hit> hits = hits_->take();
+    for (const GuideEvent& event : events)
+      if (event.kind == GuideEvent::Kind::kPlaced && event.body != kNoBody)
+        hits.push_back({event.time, kPutDown, hits_->lengthOf(static_cast<std::size_t>(event.body))});
+    for (const Hit& hit : hits) {
       if (loudspeaker_) loudspeaker_->play(hit);
       if (!settings_.sound_file.empty()) heard_.push_back(hit);
     }

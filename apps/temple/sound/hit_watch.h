@@ -21,6 +21,8 @@ class HitWatch final : public Module {
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override { return {"hear stones hit each other"}; }
 
+  /// Hit::length of a free body [m].
+  double lengthOf(std::size_t body) const { return stones_[body].length; }
   /// Hits since the last call.
   std::vector<Hit> take();
 
