@@ -12,7 +12,8 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
+#include <string>
+#include <system_error>
 
 #include "framework/input/on_path.h"
 
@@ -29,9 +30,11 @@ constexpr double kAhead = 0.04;                    // samples are written this l
 }  // namespace
 
 bool Loudspeaker::available() {
-  std::ifstream devices("/proc/asound/pcm");
-  for (std::string line; std::getline(devices, line);)
-    if (line.find("playback") != std::string::npos) return input::isOnPath(kPlayer);
+  std::error_code none;
+  for (const auto& device : std::filesystem::directory_iterator("/dev/snd", none)) {
+    const std::string name = device.path().filename();
+    if (name.starts_with("pcm") && name.ends_with('p')) return input::isOnPath(kPlayer);  // p: plays
+  }
   return false;
 }
 
