@@ -31,6 +31,7 @@ NaiveVisitor::NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t see
       hand_(practised ? HandTraits{.overshoot = 0, .scatter = 0.03, .tremor = 0.0005} : drawHand(random_), random_),
       waits_(world_->scene.bodies.size()) {
   drawKnowledge(cues);
+  practised_ = practised;
   if (!practised) return;
   ignores_ = false;
   known_ = {};
@@ -98,12 +99,13 @@ Vec3 NaiveVisitor::fingers() const { return (device_->fingers[0].p_WH + device_-
 double NaiveVisitor::opening() const { return (device_->fingers[0].p_WH - device_->fingers[1].p_WH).norm(); }
 
 /// Where a point seems to be: right across the line of sight, a guess along it, which gets worse the more the ground is
-/// seen from its edge.
+/// seen from its edge; the practised look from two sides first.
 Vec3 NaiveVisitor::guess(const Vec3& p_W) {
   const view::CameraAxes axes = camera_.axes();
   const Vec3 level = Vec3::UnitZ().cross(axes.right);
   const double down = std::max(0.1, -(p_W - camera_.pose().eye).normalized().z());
-  return p_W + kAcross * random_.normal() * axes.right + depth_ * kSeenFrom / down * random_.normal() * level +
+  return p_W + kAcross * random_.normal() * axes.right +
+         depth_ * (practised_ ? 1 : kSeenFrom / down) * random_.normal() * level +
          kAcross * random_.normal() * Vec3::UnitZ();
 }
 
