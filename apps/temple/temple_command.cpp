@@ -17,7 +17,9 @@
 #include "apps/temple/building/words.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/ruins_cache.h"
+#include "apps/temple/sound/loudspeaker.h"
 #include "apps/temple/visit.h"
+#include "apps/temple/visit_counts.h"
 #include "apps/temple/voice.h"
 #include "apps/temple/written_scene.h"
 #include "framework/core/diagnostics/printable.h"
@@ -29,14 +31,16 @@ constexpr double kBehind = 0.1;          // distance of the building's centre be
 constexpr double kEachBlock = 100;       // time limit of an automatic rebuilding, per block [s]
 constexpr double kPictureAfter = 0.005;  // one step of the dynamics [s]
 constexpr double kLetGo = 2;             // time to let go, once all blocks are placed [s]
-constexpr double kFinish = 8;            // time to show the result to spectators [s]
+constexpr double kFinish = 42;           // time to show the result to spectators: once round it [s]
 constexpr double kOpenEnd = 7 * 86400;   // [s]
 
 struct Arguments {
-  std::string size, parameters, folder, rig, view, screenshot, video, summary, language = "en";
+  std::string size, parameters, folder, rig, view, screenshot, video, summary, language = "en", plan = "vitruvius",
+                                                                               sound_file;
   std::vector<std::string> show;  // as in RunOptions
   PictureArguments asked;
   std::string visits;                    // folder of saved visits; empty: the default
+  std::string counts;                    // file of counted visits; empty: the default
   std::string kept;                      // session to continue
   std::vector<std::string> screenshots;  // seconds, folder
   std::uint64_t seed = 1;
@@ -44,7 +48,8 @@ struct Arguments {
   double time_scale = 0;    // simulated seconds per wall-clock second; 0: none
   double attract = 0;       // [s]; 0: never
   bool attracting = false;  // no visitor came during the previous ruins
-  bool no_help = false, voice = false;
+  bool no_help = false, voice = false, quiet = false, one_task = false, show_counts = false, sound = false;
+  bool painted = false;
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
   /// True when the building is to be assembled, rather than only drawn or written.
@@ -66,6 +71,25 @@ std::string visitFolder(const Arguments& a) {
   return a.visits.empty() ? temple::defaultVisitFolder() : a.visits;
 }
 
+std::string countsFile(const Arguments& a) {
+  if (a.counts == "none" || (a.counts.empty() && (!a.realtime() || a.automatic))) return {};
+  return a.counts.empty() ? temple::defaultCountsFile() : a.counts;
+}
+
+/// A visitor at a window hears the stones where there is something to play them.
+bool soundByItself(const Arguments& a) {
+  return a.anybody() && !a.quiet && a.sound_file.empty() && viewOf(a) == RunOptions::View::kWindow &&
+         temple::Loudspeaker::available();
+}
+
+/// What follows a task: all are offered in turn. Empty: nothing.
+std::string nextTask(const Arguments& a) {
+  const std::vector<std::string> tasks = temple::shippedNames();
+  const auto now = std::ranges::find(tasks, a.size);
+  if (a.one_task || a.automatic || !a.parameters.empty() || now == tasks.end()) return {};
+  return now + 1 == tasks.end() ? tasks.front() : *(now + 1);
+}
+
 /// A picture of the scene alone is drawn off-screen.
 PictureOptions pictureOf(const Arguments& a, Diagnostics& diagnostics) {
   RunOptions options;
@@ -78,6 +102,7 @@ PictureOptions pictureOf(const Arguments& a, Diagnostics& diagnostics) {
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
   pictureOf(a, diagnostics);
   if (a.voice) temple::Voice::check(diagnostics);
+  if (a.sound) temple::Loudspeaker::check(diagnostics);
   if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
     diagnostics.error(
         979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",
@@ -193,7 +218,7 @@ int reportRebuild(const temple::Rebuilt& rebuilt, const Arguments& a) {
 }
 
 temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec spec, const Arguments& a,
-                          temple::KeptSession start) {
+                          const temple::Proportions& proportions, temple::KeptSession start) {
   const ScratchFolder scratch;
   if (spec.rig.empty()) {
     spec.rig = scratch.file("pair.xml");
@@ -205,18 +230,26 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
 
-  temple::VisitSettings settings{.finish = !a.automatic   ? -1
-                                           : a.realtime() ? kFinish
-                                                          : kLetGo,
-                                 .time_scale = a.time_scale,
-                                 .quiet = a.lockstep,
-                                 .attract = a.automatic ? 0 : a.attract,
-                                 .attracting = a.attracting,
-                                 .folder = visitFolder(a),
-                                 .start = std::move(start),
-                                 .language = a.language,
-                                 .voice = a.voice,
-                                 .help = !a.no_help};
+  temple::VisitSettings settings{
+      .finish = !a.automatic   ? -1
+                : a.realtime() ? kFinish
+                               : kLetGo,
+      .time_scale = a.time_scale,
+      .quiet = a.lockstep || a.quiet,
+      .attract = a.automatic ? 0 : a.attract,
+      .attracting = a.attracting,
+      .folder = visitFolder(a),
+      .start = std::move(start),
+      .language = a.language,
+      .voice = a.voice,
+      .sound = a.sound || soundByItself(a),
+      .sound_file = a.sound_file,
+      .density = proportions.stone.density,
+      .full_size = proportions.full_size > 0 ? proportions.full_size / proportions.module : 1,
+      .counts = countsFile(a),
+      .task = temple::taskWords(a.language, a.size),
+      .next = temple::taskWords(a.language, nextTask(a)),
+      .help = !a.no_help};
   if (!a.lockstep) return temple::visit(std::move(loaded), settings);
   terminal::JobProgress progress(building.blocks.size());
   int done = 0;
@@ -244,17 +277,28 @@ std::optional<temple::SceneSpec> specOf(const temple::Building& building, const 
   return spec;
 }
 
-/// One visit. `again` is set when the simulated hands finished without a visitor: start over with new ruins.
-int runOnce(Arguments a, bool& again) {
+/// What follows a visit.
+enum class Next {
+  kNothing,
+  kAgain,   ///< the simulated hands finished without a visitor: the same with new ruins
+  kOnward,  ///< the next task
+};
+
+/// One visit. `seconds`: added to the simulated time.
+int runOnce(Arguments& a, Next& next, double& seconds) {
   Diagnostics diagnostics;
   std::optional<temple::KeptSession> kept;
   const std::string kept_file =
       !a.kept.empty() ? a.kept : temple::sessionFile(a.visits.empty() ? temple::defaultVisitFolder() : a.visits);
   if (a.go_on) {
     kept = temple::readKept(kept_file, diagnostics);
-    if (kept) std::tie(a.size, a.parameters, a.seed) = std::tie(kept->size, kept->parameters, kept->seed);
+    if (kept) {
+      std::tie(a.size, a.plan) = temple::sizeAndPlan(kept->size);
+      std::tie(a.parameters, a.seed) = std::tie(kept->parameters, kept->seed);
+    }
   }
-  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(a.size, diagnostics)
+  const std::string building_name = temple::buildingName(a.size, a.plan);
+  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(building_name, diagnostics)
                                                                : temple::readProportions(a.parameters, diagnostics);
   const AssemblyWords words = temple::shippedWords(a.language, diagnostics);
   checkOutputs(a, diagnostics);
@@ -274,6 +318,7 @@ int runOnce(Arguments a, bool& again) {
     spec->to_be_built = true;
     spec->words = words;
   }
+  spec->painted = a.painted;
   if (!a.rig.empty()) spec->rig = std::filesystem::absolute(a.rig).lexically_normal().string();
   if (!a.folder.empty()) {
     const std::string scene = temple::writeScene(*building, *spec, a.folder);
@@ -282,23 +327,36 @@ int runOnce(Arguments a, bool& again) {
   }
   if (a.visit()) {
     if (!kept) {
-      kept = temple::KeptSession{a.size, a.parameters, a.seed, 0, 0, {}};
+      kept = temple::KeptSession{building_name, a.parameters, a.seed, 0, 0, {}};
       for (const temple::SceneSpec::Stone& stone : spec->stones) kept->X_WB.push_back(stone.X_WB);
     }
-    const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, std::move(*kept));
-    again = end.again;
-    return again ? kExitOk : reportRebuild(end.rebuilt, a);
+    const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, proportions, std::move(*kept));
+    next = end.again ? Next::kAgain : end.onward ? Next::kOnward : Next::kNothing;
+    seconds += end.rebuilt.simulated_seconds;
+    return end.again ? kExitOk : reportRebuild(end.rebuilt, a);
   }
   return a.screenshot.empty() ? kExitOk : takePicture(*building, *spec, a);
 }
 
+int showCounts(const Arguments& a) {
+  Diagnostics diagnostics;
+  const std::string table = temple::countsTable(a.counts.empty() ? temple::defaultCountsFile() : a.counts, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  std::fputs(table.c_str(), stdout);
+  return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
+}
+
 int runTemple(Arguments a) {
-  for (;;) {
-    bool again = false;
-    const int status = runOnce(a, again);
-    if (!again) return status;
+  const std::string first = a.size;
+  const double limit = a.limit;
+  for (double seconds = 0;;) {
+    Next next = Next::kNothing;
+    const int status = runOnce(a, next, seconds);
+    if (limit > 0) a.limit = limit - seconds;
+    if (next == Next::kNothing || (limit > 0 && a.limit <= 0)) return status;
+    a.size = next == Next::kOnward ? nextTask(a) : first;
     ++a.seed;
-    a.attracting = true;
+    a.attracting = next == Next::kAgain;
     a.go_on = false;
     a.folder.clear();
   }
@@ -326,10 +384,19 @@ void addTemple(Command app, int& status) {
                  "folder for log.jsonl (events, no personal data) and session.json (blocks in place), or none\n"
                  "(default against the clock: " +
                      temple::defaultVisitFolder() + ", else none)");
-  command
-      .option("--attract", a->attract,
+  command.option("--count", a->counts,
+                 "file to which visits are added, one line for each that begins, is finished or left: day, task, "
+                 "seconds; or none\n"
+                 "(default against the clock: " +
+                     temple::defaultCountsFile() + ", else none)");
+  command.flag("--counts", a->show_counts, "show the visits counted in that file, by day and task, and end");
+  command.flag("--one-task", a->one_task, "stay with this task: no larger one is offered when it is finished");
+  Option attract =
+      command
+          .option(
+              "--attract", a->attract,
               "after this many seconds without a touch, simulated hands continue until the next touch (default: never)")
-      .positive();
+          .positive();
   command.option("--continue", a->kept, "continue from a session.json, also after a crash (default: that of --session)")
       .values(0, 1);
   command
@@ -337,13 +404,31 @@ void addTemple(Command app, int& status) {
               "first: a short column of three pieces; column: six pieces; facade: a front of four columns, 45 pieces\n"
               "(default: first for a visitor with a mouse, else column)")
       .oneOf(temple::shippedNames());
+  command
+      .option(
+          "--plan", a->plan,
+          "measures after vitruvius (De architectura), or of the parthenon, which name their sources in config/temple\n"
+          "(the first task has its own)")
+      .oneOf(temple::shippedPlans())
+      .showDefault();
   command.flag("--no-help", a->no_help,
                "do not help a visitor with a mouse to grasp (the help fades with every block placed; a device that is "
                "felt never gets any)");
-  command.flag("--voice", a->voice,
-               "read the sentences about the blocks aloud, in the language of the texts (espeak-ng)");
+  Option voice = command.flag("--voice", a->voice,
+                              "read the sentences about the blocks aloud, in the language of the texts (espeak-ng)");
   command.flag("--assembled,--no-ruins", a->assembled,
                "every block where it belongs, instead of ruins strewn by a physics drop");
+  Option sound = command.flag("--sound", a->sound,
+                              "play stone on stone (aplay; without this option where a window and a sound device are)");
+  command.option("--sound-file", a->sound_file, "WAV of what stone on stone sounds like in the visit; plays nothing");
+  command
+      .flag("--quiet", a->quiet,
+            "for whoever looks after an exhibit: no sound, no voice, no simulated hands, no line in the terminal")
+      .excludes(voice)
+      .excludes(sound)
+      .excludes(attract);
+  command.flag("--painted", a->painted,
+               "in the colours of which traces were found: triglyphs blue, metopes red, the pediment's wall blue");
   command.option("--seed", a->seed, "seed of the damage to the stones and of the places where the blocks fell")
       .showDefault();
   command.option("--write", a->folder, "folder for scene.xml and its meshes, which presa check, explain and run take");
@@ -367,7 +452,8 @@ void addTemple(Command app, int& status) {
   command
       .option("--parameters", a->parameters,
               "proportions of another building, as in config/temple/facade.xml, each with its source")
-      .excludes(command.named("--size"));
+      .excludes(command.named("--size"))
+      .excludes(command.named("--plan"));
   command.footer(
       "Exit status: 0 done, 1 the picture could not be drawn or not every block was placed, 2 bad input or blocks that "
       "do not come to rest (nothing\n"
@@ -378,6 +464,10 @@ void addTemple(Command app, int& status) {
       "  presa temple --size facade --screenshot ruins.png\n"
       "  presa temple --size column --assembled --write out/column && presa run out/column/scene.xml --lockstep");
   command.action([a, command, &status] {
+    if (a->show_counts) {
+      status = showCounts(*a);
+      return;
+    }
     a->go_on = command.given("--continue");
     if (a->size.empty()) a->size = a->anybody() && a->parameters.empty() ? "first" : "column";
     status = runTemple(*a);

@@ -1,15 +1,20 @@
 #include "apps/temple/visit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "apps/common/atomic_file.h"
 #include "apps/common/terminal_run.h"
 #include "apps/temple/help/help_level.h"
 #include "apps/temple/help/helped_finger.h"
 #include "apps/temple/shared_finger.h"
+#include "apps/temple/sound/hit_watch.h"
+#include "apps/temple/sound/loudspeaker.h"
+#include "apps/temple/visit_counts.h"
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_observer.h"
 #include "apps/temple/voice.h"
@@ -20,12 +25,19 @@
 namespace presa::temple {
 namespace {
 
+constexpr double kPutDown = 0.15;    // as what a stone is heard that is put into its place [m/s]
 constexpr double kShownFinish = 10;  // pause after the hands have finished, before the next ruins [s]
+// after completion: until the next task is offered, until it begins, and since the last touch at the least [s]
+constexpr double kOffered = 12, kOnward = 60, kOnwardUntouched = 30;
 
 class Visit {
  public:
   Visit(Loaded loaded, const VisitSettings& settings)
-      : settings_(settings), world_(loaded.world), options_(loaded.options), assembly_(*world_->scene.assembly) {
+      : settings_(settings),
+        world_(loaded.world),
+        options_(loaded.options),
+        assembly_(*world_->scene.assembly),
+        counts_(settings.counts, settings.start.size) {
     auto rebuild_observer = std::make_unique<RebuildObserver>(world_);
     auto observer = std::make_unique<VisitObserver>(*world_);
     rebuild_observer_ = rebuild_observer.get();
@@ -33,6 +45,11 @@ class Visit {
     TerminalRun::Settings run{.quiet = settings.quiet, .command = "presa temple", .guide = true};
     run.more.push_back(std::move(rebuild_observer));
     run.more.push_back(std::move(observer));
+    if (settings.sound || !settings.sound_file.empty()) {
+      auto hits = std::make_unique<HitWatch>(world_, settings.density, settings.full_size);
+      hits_ = hits.get();
+      run.more.push_back(std::move(hits));
+    }
     run.paced = settings.time_scale > 0;
     if (run.paced) run.speed = settings.time_scale;
     if (settings.help) addHelp(run);
@@ -42,6 +59,7 @@ class Visit {
     };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
     run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
+    if (settings.sound) loudspeaker_ = std::make_unique<Loudspeaker>();
     if (settings.voice) voice_.emplace(settings.language);
     if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, world_->scene, settings.language);
   }
@@ -55,7 +73,10 @@ class Visit {
     rebuilt.simulated_seconds = result.simulated_seconds;
     rebuilt.interrupted = result.interrupted;
     if (log_) log_->note("end", rebuilt.simulated_seconds);
-    return {rebuilt, again_};
+    counts_.leave(rebuilt.simulated_seconds);
+    if (hits_ != nullptr) hear({});
+    if (!settings_.sound_file.empty()) writeFileAtomically(settings_.sound_file, wavOf(heard_));
+    return {rebuilt, onward_, again_};
   }
 
  private:
@@ -79,20 +100,54 @@ class Visit {
   bool watch(Session& session, char key) {
     observer_->showOn(session.view());
     const VisitObserver::Snapshot snapshot = observer_->snapshot();
-    if (log_) log_->note(observer_->takeEvents(), snapshot);
+    const std::vector<GuideEvent> events = observer_->takeEvents();
+    if (log_) log_->note(events, snapshot);
     if (log_ && help_level_ != nullptr) log_->note(help_level_->takeNotes());
     if (voice_) speak(snapshot.now);
+    if (hits_ != nullptr) hear(events);
     const std::uint32_t inputs = session.view() != nullptr ? session.view()->inputs() : 0;
     const bool touched = std::exchange(inputs_, inputs) != inputs || key != '\0';
     if (settings_.attract > 0) takeTurns(snapshot, touched);
+    if (touched) last_input_ = snapshot.time;
     undo(session, key);
     if (settings_.progress && !settings_.progress(snapshot.now.placed, snapshot.now.all)) return false;
     if (snapshot.now.placed < snapshot.now.all)
       done_at_.reset();
     else if (!done_at_)
       done_at_ = snapshot.time;
+    count(snapshot, touched);
+    if (done_at_ && !attracting_) goOn(session, key, snapshot.time);
     again_ = done_at_ && attracting_ && snapshot.time > *done_at_ + kShownFinish;
-    return !again_ && (settings_.finish < 0 || !done_at_ || snapshot.time < *done_at_ + settings_.finish);
+    return !again_ && !onward_ && (settings_.finish < 0 || !done_at_ || snapshot.time < *done_at_ + settings_.finish);
+  }
+
+  // A visit lasts from the first touch until the building stands or the hands take over.
+  void count(const VisitObserver::Snapshot& snapshot, bool touched) {
+    if (attracting_) return counts_.leave(snapshot.time);
+    if (done_at_) return counts_.finish(*done_at_);
+    if (touched || (snapshot.touched > 0 && snapshot.touched == snapshot.time)) counts_.touch(snapshot.time);
+  }
+
+  // What was rebuilt, then what comes next, which begins by itself or when it is asked for.
+  void goOn(Session& session, char key, double time) {
+    const std::uint32_t wanted = session.view() != nullptr ? session.view()->onwardsWanted() : 0;
+    const bool asked = std::exchange(onwards_, wanted) != wanted || key == ' ';
+    const double begins = std::max(*done_at_ + kOnward, last_input_ + kOnwardUntouched);
+    const bool offered = !settings_.next.offers.empty() && time > *done_at_ + kOffered;
+    observer_->setBanner(offered ? fillIn(settings_.next.offers, "time", durationText(std::ceil(begins - time)))
+                                 : settings_.task.stands);
+    onward_ = !settings_.next.offers.empty() && (asked || time >= begins);
+  }
+
+  void hear(const std::vector<GuideEvent>& events) {
+    std::vector<Hit> hits = hits_->take();
+    for (const GuideEvent& event : events)
+      if (event.kind == GuideEvent::Kind::kPlaced && event.body != kNoBody)
+        hits.push_back({event.time, kPutDown, hits_->lengthOf(static_cast<std::size_t>(event.body))});
+    for (const Hit& hit : hits) {
+      if (loudspeaker_) loudspeaker_->play(hit);
+      if (!settings_.sound_file.empty()) heard_.push_back(hit);
+    }
   }
 
   // What the screen says about the block in hand, and at the end.
@@ -149,8 +204,14 @@ class Visit {
   std::unique_ptr<TerminalRun> run_;
   std::optional<VisitLog> log_;
   std::optional<Voice> voice_;
+  HitWatch* hits_ = nullptr;  // owned by the run; null: nothing is heard
+  std::unique_ptr<Loudspeaker> loudspeaker_;
+  std::vector<Hit> heard_;         // for the file
   std::optional<double> done_at_;  // [s]
-  std::uint32_t undone_ = 0, inputs_ = 0;
+  std::uint32_t undone_ = 0, inputs_ = 0, onwards_ = 0;
+  VisitCounts counts_;
+  double last_input_ = -1e300;  // [s]
+  bool onward_ = false;
   std::vector<SharedFinger*> fingers_;  // owned by the run; empty unless settings_.attract > 0
   double touched_at_ = 0;               // [s]
   bool at_once_ = settings_.attracting, attracting_ = false, again_ = false;

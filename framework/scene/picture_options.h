@@ -47,6 +47,11 @@ struct PictureOptions {
   Hud hud = Hud::kFull;
   bool legend = false;  ///< explains arrows, cones and colours
   Background background = Background::kScene;
+  enum class Light {
+    kNoon,
+    kEvening  ///< a low, warm sun and long shadows
+  };
+  Light light = Light::kNoon;  ///< of scenes out of doors; other scenes have the light of a room
 };
 
 /// The value of `--camera`: a name of kViewSideNames, or EYE:TARGET as x,y,z:x,y,z [m]. Error: E706.

@@ -33,6 +33,8 @@ class View : public Module {
   /// Number of undo requests (remove the body placed last), and of inputs of any kind in the window. From any thread.
   virtual std::uint32_t undosWanted() const noexcept = 0;
   virtual std::uint32_t inputs() const noexcept = 0;
+  /// Number of requests to go on to what is offered next (Space or Return in a visitor's window). From any thread.
+  virtual std::uint32_t onwardsWanted() const noexcept { return 0; }
 
   /// Resolution at which the last frame's bodies were drawn, as a share of the window's width and height; below 1 to
   /// keep the frame rate. From any thread.

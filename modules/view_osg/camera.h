@@ -19,6 +19,9 @@ struct CameraPose {
 
 inline constexpr double kFieldOfView = 28;                         ///< vertical [deg]
 inline constexpr double kElevation = 26 * std::numbers::pi / 180;  ///< unless another is asked for [rad]
+/// Out of doors: the line of sight is nearly level, and the horizon is in the upper part of the picture. The eye is as
+/// high as the top of what is built, so that what lies on the ground is seen from some 17 degrees above.
+inline constexpr double kEyeLevel = 8 * std::numbers::pi / 180;  ///< [rad]
 
 /// Axes of a camera that looks from `heading` (see chooseHeading) and from `elevation` above the horizon [rad].
 struct CameraAxes {

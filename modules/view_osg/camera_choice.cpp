@@ -14,7 +14,7 @@ std::optional<CameraPose> CameraChoice::place() const {
 CameraChoice::Direction CameraChoice::direction(const std::vector<Ball>& subject) const {
   constexpr double kQuarter = std::numbers::pi / 2;
   const double diagonal = std::atan(std::numbers::sqrt2 / 2);  // the elevation of (1, 1, 1)
-  if (!asked_ || !std::holds_alternative<ViewSide>(*asked_)) return {chooseHeading(subject), kElevation};
+  if (!asked_ || !std::holds_alternative<ViewSide>(*asked_)) return {chooseHeading(subject), elevation_};
   switch (std::get<ViewSide>(*asked_)) {
     case ViewSide::kFront:
       return {0, 0};
@@ -29,7 +29,7 @@ CameraChoice::Direction CameraChoice::direction(const std::vector<Ball>& subject
     case ViewSide::kIso:
       return {kQuarter / 2, diagonal};
   }
-  return {chooseHeading(subject), kElevation};
+  return {chooseHeading(subject), elevation_};
 }
 
 Vec3 upOf(const CameraPose& pose) {

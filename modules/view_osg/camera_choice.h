@@ -10,7 +10,8 @@ namespace presa::view {
 /// From where a picture is seen: from the place or the side that the user asks for, else from a chosen heading.
 class CameraChoice {
  public:
-  explicit CameraChoice(const PictureOptions& options) : asked_(options.camera) {}
+  explicit CameraChoice(const PictureOptions& options, double elevation = kElevation)
+      : asked_(options.camera), elevation_(elevation) {}
   /// The place that the user asks for; none: the camera follows the subject from `direction`.
   std::optional<CameraPose> place() const;
   struct Direction {
@@ -20,6 +21,7 @@ class CameraChoice {
 
  private:
   std::optional<std::variant<ViewSide, CameraPlace>> asked_;
+  double elevation_;  // unless a side is asked for [rad]
 };
 
 /// What is upwards in the picture of a camera without roll: +z, or +y where it looks straight up or down.

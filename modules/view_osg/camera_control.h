@@ -1,5 +1,6 @@
 #pragma once
 #include <numbers>
+#include <optional>
 
 #include "modules/view_osg/camera.h"
 
@@ -13,6 +14,9 @@ class CameraControl {
   static constexpr double kSteepest = 89 * std::numbers::pi / 180;
   explicit CameraControl(double aspect) : aspect_(aspect) {}
   void setAspect(double aspect) { aspect_ = aspect; }
+  /// The eye stays above this height, whatever moves it [m]; none: anywhere.
+  void setGround(std::optional<double> z) { ground_ = z; }
+  static constexpr double kAboveGround = 0.03;  ///< [m]
 
   void set(const CameraPose& pose);
   /// Orbits the target; the scene turns with the mouse.
@@ -35,9 +39,12 @@ class CameraControl {
   Vec3 rayThrough(double right, double up) const;
 
  private:
+  void stayAbove();
+
   double aspect_;
   Vec3 target_ = Vec3::Zero();
   double heading_ = 0, elevation_ = 0, distance_ = 1;
+  std::optional<double> ground_;
 };
 
 }  // namespace presa::view

@@ -9,7 +9,7 @@ namespace presa::view {
 /// else it glides to a new place.
 class FollowCamera {
  public:
-  explicit FollowCamera(const PictureOptions& options) : choice_(options) {}
+  explicit FollowCamera(const PictureOptions& options, double elevation = kElevation) : choice_(options, elevation) {}
   const CameraChoice& choice() const { return choice_; }
   /// Where the camera stands at a time of the clock [s]. `now` frames the subject at once.
   CameraPose at(double clock, const std::vector<Ball>& subject, double aspect, double used_width, bool now);

@@ -152,8 +152,13 @@ void Hud::tell(const std::string& message) {
 
 void Hud::setBanner(const std::string& text, bool alarm) {
   if (level_ == Level::kOff) return;
+  if (!banner_ && assembly_) {  // what a visitor is told is read before any sky
+    banner_panel_ = roundedPanel({-440, kHeight / 2 - 94, 880, 36}, 12, {0.06F, 0.055F, 0.05F, 0.72F});
+    center_->addChild(banner_panel_);
+  }
+  if (banner_panel_) banner_panel_->setNodeMask(text.empty() ? 0U : ~0U);
   if (!banner_)
-    banner_.emplace(*center_, 0, kHeight / 2 - (assembly_ ? 84 : 34), assembly_ ? 22 : 15, ink_.text, Typeface::kBold,
+    banner_.emplace(*center_, 0, kHeight / 2 - (assembly_ ? 83 : 34), assembly_ ? 18 : 15, ink_.text, Typeface::kBold,
                     Label::Align::kCenter);
   banner_->set(text);
   banner_->setColor(alarm ? kAlarm : ink_.text);

@@ -71,6 +71,7 @@ class Hud {
   osg::ref_ptr<osg::Group> content_ = new osg::Group;
   osg::ref_ptr<osg::Group> left_ = new osg::Group;
   osg::ref_ptr<osg::MatrixTransform> right_ = new osg::MatrixTransform;        ///< x = 0 is the right edge
+  osg::ref_ptr<osg::Node> banner_panel_;                                       ///< behind the banner of an assembly
   osg::ref_ptr<osg::MatrixTransform> center_ = new osg::MatrixTransform;       ///< origin in the middle
   osg::ref_ptr<osg::MatrixTransform> participant_ = new osg::MatrixTransform;  ///< origin in the middle
   osg::ref_ptr<osg::Group> figures_ = new osg::Group;                          ///< all but `participant_`

@@ -12,6 +12,7 @@ namespace presa::view {
 namespace {
 
 const Vec3 kKeyDirection = Vec3(0.38, -0.42, 0.95).normalized();  ///< towards the key light: over the right shoulder
+const Vec3 kLowDirection = Vec3(0.80, -0.46, 0.58).normalized();  ///< in the evening: 32 degrees high
 
 // moments: size of the maps, and half width of the blur [texel]; the sky is a wide light
 constexpr int kKeyTexels = 192, kSkyTexels = 64;
@@ -61,13 +62,16 @@ osg::ref_ptr<osg::Camera> softeningPass(int order, osg::Program* program, osg::T
 
 }  // namespace
 
-Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers) : receivers_(receivers) {
-  addMap("key", kKeyTexels, kKeyDirection, Vec3::UnitZ(), casters);
+Lighting::Lighting(osg::Node* casters, osg::StateSet* receivers, PictureOptions::Light light)
+    : receivers_(receivers), evening_(light == PictureOptions::Light::kEvening) {
+  const Vec3 key = evening_ ? kLowDirection : kKeyDirection;
+  addMap("key", kKeyTexels, key, Vec3::UnitZ(), casters);
   addMap("sky", kSkyTexels, Vec3::UnitZ(), Vec3::UnitY(), casters);
-  receivers->addUniform(new osg::Uniform("key_direction", osg::Vec3(toOsg(kKeyDirection))));
+  receivers->addUniform(new osg::Uniform("key_direction", osg::Vec3(toOsg(key))));
   picture_size_ = new osg::Uniform("picture_size", osg::Vec2(1, 1));
   receivers->addUniform(picture_size_);
   receivers->addUniform(glow_);
+  setGlow(0);
   setQuality(kFineLight);
 }
 
@@ -149,7 +153,7 @@ std::vector<Vec3> Lighting::directions() const {
 bool Lighting::setGlow(double share) {
   float before = 0;
   glow_->get(before);
-  const auto now = static_cast<float>(share);
+  const auto now = static_cast<float>(evening_ ? 1 : share);
   if (now == before) return false;
   glow_->set(now);
   return true;

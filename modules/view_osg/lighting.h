@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "framework/core/math/spatial.h"
+#include "framework/scene/picture_options.h"
 
 namespace presa::view {
 
@@ -24,7 +25,7 @@ inline constexpr LightQuality kQuickLight{384, true};
 class Lighting {
  public:
   /// `casters` are drawn into both maps; the uniforms and textures are set on `receivers`.
-  Lighting(osg::Node* casters, osg::StateSet* receivers);
+  Lighting(osg::Node* casters, osg::StateSet* receivers, PictureOptions::Light light = {});
 
   /// Cameras to be drawn before the picture.
   osg::Group* passes() { return passes_; }
@@ -32,7 +33,9 @@ class Lighting {
   bool setFocus(const Vec3& center, double radius);
   /// Directions towards the lights, unit vectors.
   std::vector<Vec3> directions() const;
-  /// 0: daylight; 1: evening sun. True if that is a change.
+  /// How much farther shadows reach than at noon.
+  double reach() const { return evening_ ? 1.4 : 1; }
+  /// 0: daylight, or evening if that is the light; 1: evening sun. True if that is a change.
   bool setGlow(double share);
   /// Starts a frame and draws the maps; a quick light only if something `moved`.
   void beginFrame(bool moved);
@@ -56,6 +59,7 @@ class Lighting {
   osg::ref_ptr<osg::Group> passes_ = new osg::Group;
   osg::ref_ptr<osg::StateSet> receivers_;
   std::vector<Map> maps_;
+  const bool evening_;
   LightQuality quality_ = kFineLight;
   bool due_ = true;  // the maps are not drawn yet
   Vec3 center_ = Vec3::Zero();

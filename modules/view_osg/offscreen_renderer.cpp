@@ -3,6 +3,7 @@
 #include <osgViewer/Viewer>
 
 #include "modules/view_osg/camera_choice.h"
+#include "modules/view_osg/finish_walk.h"
 #include "modules/view_osg/follow_camera.h"
 #include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/gl_context_egl.h"
@@ -21,7 +22,7 @@ class OffscreenRenderer final : public Renderer {
  public:
   OffscreenRenderer(Picture& picture, const PictureOptions& options, bool film)
       : picture_(picture),
-        follow_(options),
+        follow_(options, picture.elevation()),
         background_(options.background),
         supersample_(film ? 1 : supersampleOf(options)),
         aspect_(static_cast<double>(options.width) / options.height),
@@ -76,7 +77,9 @@ class OffscreenRenderer final : public Renderer {
  private:
   CameraPose cameraNow() {
     if (const std::optional<CameraPose> place = follow_.choice().place()) return *place;
-    return follow_.at(picture_.time(), picture_.subject(), aspect_, picture_.usedWidth(), false);
+    const CameraPose pose = follow_.at(picture_.time(), picture_.subject(), aspect_, picture_.usedWidth(), false);
+    const double finished = picture_.finishedFor();
+    return finished < 0 ? pose : walk_.at(finished, 0, pose, picture_.middleOfGoals());
   }
   osg::Group* root() { return retained_ ? retained_->root() : picture_.root(); }
   osg::ref_ptr<osg::Image> grab() {
@@ -89,6 +92,7 @@ class OffscreenRenderer final : public Renderer {
   Picture& picture_;
   std::optional<RetainedSpace> retained_;  // for films
   FollowCamera follow_;
+  FinishWalk walk_;
   const PictureOptions::Background background_;
   const int supersample_;
   const double aspect_;

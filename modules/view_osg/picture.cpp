@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/view_osg/grain.h"
+#include "modules/view_osg/landscape.h"
 
 namespace presa::view {
 namespace {
@@ -34,7 +34,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       overlays_(*world_),
       neighbourhoods_(*world_),
       relief_(*world_),
-      lighting_(casters_, space_->getOrCreateStateSet()),
+      lighting_(casters_, space_->getOrCreateStateSet(), options.picture.light),
       hud_(*world_, options),
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
@@ -59,15 +59,20 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
                           neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
-  osg::ref_ptr<osg::Node> background;
+  osg::ref_ptr<osg::Node> background, landscape;
   if (options.picture.background == PictureOptions::Background::kScene) {
     background = makeBackground();
     space_->addChild(background);
     space_->addChild(floor_);
+    if (isOutdoors(world_->scene)) {
+      ground_ = floorHeight(*world_);
+      landscape = makeLandscape(enclose(subject_).center, reach, *ground_);
+      space_->addChild(landscape);
+    }
   }
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
-  still_ = {lighting_.passes(), bodies_.root(), background, floor_};
+  still_ = {lighting_.passes(), bodies_.root(), background, floor_, landscape};
   watch_.emplace(bodies_, lighting_.directions(), lowestPoint(*world_));
   root_->getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 1)));
   root_->addChild(space_);
@@ -113,7 +118,8 @@ void Picture::setQuick(bool quick) {
   bodies_.setQuick(quick);
   glyphs_.setQuick(quick);
   floor_->removeChildren(0, floor_->getNumChildren());
-  floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_, kShadows * floor_radius_ / kFloorReach, quick));
+  floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_,
+                             lighting_.reach() * kShadows * floor_radius_ / kFloorReach, quick));
   watch_->measureShapes();
 }
 
@@ -165,6 +171,12 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
   return watch_->update({frame.X_WB, *finger_casters_, others, appearance, kSeen * radius});
 }
 
+Vec3 Picture::middleOfGoals() const {
+  Vec3 sum = Vec3::Zero();
+  for (const AssemblyGoal& goal : world_->scene.assembly->goals) sum += goal.X_WB.p;
+  return sum / static_cast<double>(std::max<std::size_t>(1, world_->scene.assembly->goals.size()));
+}
+
 void Picture::showOffsets(bool shown, const ViewFrame& frame) {
   if (shown && !offsets_) offsets_.emplace(hud_.right(), offsets_top_, *world_, ink_);
   if (!offsets_) return;
@@ -183,6 +195,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   if (guides_ && frame.guidance) {
     guides_->update(*frame.guidance, frame.X_WB, frame.time);
     const Guidance& told = *frame.guidance;
+    finished_for_ = told.finished && forVisitors(*world_) ? frame.time - told.finished_at : -1;
     const double glow = told.finished ? std::min(1.0, (frame.time - told.finished_at) / kSunset) : 0.0;
     if (lighting_.setGlow(glow)) watch_->changeAll();
   }
@@ -199,7 +212,8 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   showOffsets(parts[ShownPart::kOffset], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  if (lighting_.setFocus(focus.center, (quick_ ? kShadows : kLitAround) * focus.radius)) watch_->changeAll();
+  if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius))
+    watch_->changeAll();
   lighting_.beginFrame(changed(frame, fingers, parts, focus.radius));
 }
 

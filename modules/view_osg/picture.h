@@ -10,6 +10,7 @@
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
 #include "modules/view_osg/finger_marks.h"
+#include "modules/view_osg/grain.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
 #include "modules/view_osg/lighting.h"
@@ -58,6 +59,14 @@ class Picture {
   const std::vector<Ball>& subject() const { return subject_; }
   /// Argument of frameSubject: in an assembly task and without figures there are no cards at the sides.
   double usedWidth() const { return world_->scene.assembly || screen_ || !panels_ ? kWholeWidth : kBetweenCards; }
+  /// Elevation of the camera, unless another is asked for [rad].
+  double elevation() const { return isOutdoors(world_->scene) ? kEyeLevel : kElevation; }
+  /// Height of the ground out of doors [m]; none: a floor that may be seen from below.
+  std::optional<double> ground() const { return ground_; }
+  /// For how long an assembly has been complete [s]; negative: it is not, or not for visitors.
+  double finishedFor() const { return finished_for_; }
+  /// The vertical axis of a walk round what was built goes through it.
+  Vec3 middleOfGoals() const;
   /// The camera of the next frame.
   void seenFrom(const CameraPose& pose) { hud_.seenFrom(pose); }
   /// Simplifies the picture for software rendering.
@@ -102,7 +111,8 @@ class Picture {
   Vec3 floor_center_ = Vec3::Zero();
   double floor_radius_ = 0;
   bool quick_ = false;
-  double time_ = 0;
+  double time_ = 0, finished_for_ = -1;
+  std::optional<double> ground_;
   std::optional<ChangeWatch> watch_;
   ShownParts drawn_parts_;
 };

@@ -161,6 +161,11 @@ double lowestPoint(const World& world) {
   return bounds.getBoundingBox().valid() ? bounds.getBoundingBox().zMin() : 0.0;
 }
 
+double floorHeight(const World& world) {
+  const Body* earth = earthOf(world.scene);
+  return earth != nullptr ? topOf(world, *earth) : lowestPoint(world);
+}
+
 std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray) const {
   constexpr double kFar = 1000;  // [m]
   const osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
@@ -217,7 +222,7 @@ osg::ref_ptr<osg::Node> makeBackground() {
 osg::ref_ptr<osg::Node> makeFloor(const World& world, const Vec3& center, double radius, double shadows, bool quick) {
   const Body* earth = earthOf(world.scene);
   const double drop = earth != nullptr ? 0 : 1e-4;  // below bodies that end on the floor, against flicker
-  const Vec3 middle(center.x(), center.y(), (earth != nullptr ? topOf(world, *earth) : lowestPoint(world)) - drop);
+  const Vec3 middle(center.x(), center.y(), floorHeight(world) - drop);
   const Vec3 color = earth != nullptr ? world.scene.materialOf(*earth).color : kFloorColor;
   const Material::Texture texture = earth != nullptr ? Material::Texture::kEarth : Material::Texture::kNone;
   osg::ref_ptr<osg::MatrixTransform> floor =

@@ -59,6 +59,9 @@ osg::ref_ptr<osg::Group> physicsNode(const Body& body, const BodyMeshes& meshes,
 /// Height of the floor of a scene without earth, and the lowest point of its drawn bodies at the start [m].
 double lowestPoint(const World& world);
 
+/// Height of the floor, with or without earth [m].
+double floorHeight(const World& world);
+
 /// A rectangle over the whole picture, from (-1, -1) to (1, 1), for shaders with positions in clip space; texture
 /// coordinates from 0 to 1. `rows`: number of subdivisions in height.
 osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows);

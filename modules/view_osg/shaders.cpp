@@ -26,21 +26,45 @@ void main() {
 // colour per vertex: software rendering has no time for powers at each pixel of the sky
 constexpr const char* kBackgroundVertex = R"(#version 130
 uniform vec2 crop;  // lower edge and height of the drawn rows, as shares of the picture's height
-out vec4 color;
+uniform mat4 osg_ViewMatrixInverse;
+uniform bool outdoors;
+out vec3 above, below;
+out float rise;  // of the line of sight: its sine
 vec3 skyColor(float height);
+vec3 openSky(float rise);
+vec3 openSea(float rise);
 vec3 toDisplay(vec3 linear);
 void main() {
-  color = vec4(toDisplay(skyColor(crop.x + crop.y * (gl_Vertex.y * 0.5 + 0.5))), 1.0);
   gl_Position = vec4(gl_Vertex.xy, 1.0, 1.0);
+  vec4 far = gl_ProjectionMatrixInverse * gl_Position;
+  rise = normalize(mat3(osg_ViewMatrixInverse) * (far.xyz / far.w)).z;
+  above = toDisplay(outdoors ? openSky(rise) : skyColor(crop.x + crop.y * (gl_Vertex.y * 0.5 + 0.5)));
+  below = outdoors ? toDisplay(openSea(rise)) : above;
 }
 )";
 
+constexpr const char* kBackground = R"(#version 130
+in vec3 above, below;
+in float rise;
+void main() { gl_FragColor = vec4(rise < 0.0 ? below : above, 1.0); }
+)";
+
 constexpr const char* kSky = R"(#version 130
-uniform bool outdoors;
+uniform float glow;
+// the wall of a room, by the height in the picture
 vec3 skyColor(float height) {
-  vec3 low = outdoors ? vec3(0.46, 0.50, 0.52) : vec3(0.300, 0.345, 0.400);
-  vec3 high = outdoors ? vec3(0.060, 0.150, 0.330) : vec3(0.030, 0.043, 0.065);
-  return mix(low, high, smoothstep(0.05, 1.0, height));
+  return mix(vec3(0.300, 0.345, 0.400), vec3(0.030, 0.043, 0.065), smoothstep(0.05, 1.0, height));
+}
+// out of doors, by the sine of a line's elevation: haze over the horizon, then blue; in the evening a band of red
+vec3 openSky(float rise) {
+  float up = max(rise, 0.0);
+  vec3 noon = mix(vec3(0.10, 0.24, 0.52), vec3(0.56, 0.66, 0.72), exp(-7.0 * up));
+  vec3 dusk = mix(vec3(0.13, 0.20, 0.36), vec3(0.92, 0.52, 0.26), exp(-9.0 * up));
+  return mix(noon, dusk, glow);
+}
+vec3 openSea(float rise) {
+  vec3 deep = mix(vec3(0.045, 0.13, 0.24), vec3(0.10, 0.11, 0.16), glow);
+  return mix(deep, openSky(0.0), 0.10 + 0.35 * exp(60.0 * rise));
 }
 vec3 toDisplay(vec3 linear) {
   // hue stays: the brightest channel is bent towards 1, the others follow
@@ -59,6 +83,16 @@ vec3 daylight(vec3 n, float key, float open) {
   vec3 sky = mix(vec3(0.16, 0.15, 0.15), vec3(0.30, 0.34, 0.40), 0.5 + 0.5 * n.z) * open;
   vec3 fill = vec3(0.08, 0.10, 0.14) * max(dot(n, normalize(vec3(0.8, -0.3, 0.25))), 0.0);
   return mix(vec3(0.98, 0.93, 0.85), vec3(1.55, 1.16, 0.66), glow) * key + sky + fill;
+}
+)";
+
+// What the ground looks like from afar.
+constexpr const char* kLand = R"(#version 130
+uniform vec3 key_direction;
+vec3 daylight(vec3 n, float key, float open);
+vec3 landColor(vec3 n) {
+  vec3 albedo = mix(vec3(0.25, 0.23, 0.19), vec3(0.155, 0.150, 0.080), smoothstep(0.80, 0.97, n.z));
+  return albedo * daylight(n, max(dot(n, key_direction), 0.0), 1.0);
 }
 )";
 
@@ -177,15 +211,16 @@ uniform vec3 floor_center;
 uniform float floor_radius;
 uniform vec2 picture_size;
 vec3 earth(vec3 albedo, vec3 p);
+vec3 landColor(vec3 n);
 void main() {
 #if GRAIN == 2
-  vec3 albedo = earth(base.rgb, position_W);
+  vec3 albedo = earth(base.rgb, position_W), background = landColor(vec3(0, 0, 1));
 #else
-  vec3 albedo = base.rgb * (1.0 - grid(position_W.xy));
+  vec3 albedo = base.rgb * (1.0 - grid(position_W.xy)), background = skyColor(gl_FragCoord.y / picture_size.y);
 #endif
   vec3 color = lit(albedo, vec3(0, 0, 1), position_W, normalize(to_eye_W), 0.0);
   float far = smoothstep(0.15, 1.0, length(position_W.xy - floor_center.xy) / floor_radius);
-  gl_FragColor = vec4(toDisplay(mix(color, skyColor(gl_FragCoord.y / picture_size.y), far)), 1.0);
+  gl_FragColor = vec4(toDisplay(mix(color, background, far)), 1.0);
 }
 )";
 
@@ -200,8 +235,12 @@ uniform vec3 grain_offset;
 out vec3 sunny, shaded, closed;
 out vec3 key_at, sky_at;  // in the maps
 out vec3 at;              // of the texture
+#ifdef OPEN
+out vec3 far_away;
+#endif
 vec3 toDisplay(vec3 linear);
 vec3 daylight(vec3 n, float key, float open);
+vec3 landColor(vec3 n);
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   vec3 p = (osg_ViewMatrixInverse * eye).xyz;
@@ -211,6 +250,9 @@ void main() {
   float shine = GLOSS > 0.0 ? 0.5 * GLOSS * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
   sunny = toDisplay(gl_Color.rgb * daylight(n, key, 1.0) + vec3(shine));
   shaded = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0));
+#ifdef OPEN
+  far_away = toDisplay(landColor(vec3(0, 0, 1)));
+#endif
   closed = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
   key_at = (key_matrix * vec4(p + n * (0.0008 + 0.0015 * (1.0 - key)), 1.0)).xyz;
   sky_at = (sky_matrix * vec4(p + n * 0.0015, 1.0)).xyz;
@@ -227,6 +269,9 @@ uniform sampler2D ground_map;
 in vec3 sunny, shaded, closed;
 in vec3 key_at, sky_at;
 in vec3 at;
+#ifdef OPEN
+in vec3 far_away;
+#endif
 uniform vec3 floor_center;
 uniform float floor_radius;
 uniform vec2 picture_size;
@@ -261,8 +306,12 @@ void main() {
   color *= 1.0 - 0.5 * at.z * max(gridLine(at.xy, 0.05, 0.30), gridLine(at.xy, 0.25, 0.50));
 #endif
 #ifdef OPEN
+#if GRAIN == 2
+  vec3 sky = far_away;
+#else
   vec3 sky = sqrt(skyColor(gl_FragCoord.y / picture_size.y));  // within 0.015 of its display colour, with the next line
   sky = 0.85 * sky + 0.15 * sqrt(sky);
+#endif
   color = mix(color, sky, smoothstep(0.15, 1.0, length(at.xy - floor_center.xy) / floor_radius));
 #endif
   gl_FragColor = vec4(color, 1.0);
@@ -292,6 +341,8 @@ uniform vec3 key_direction;
 out vec4 color;
 vec3 toDisplay(vec3 linear);
 vec3 daylight(vec3 n, float key, float open);
+vec3 openSky(float rise);
+vec3 landColor(vec3 n);
 vec4 glyph(vec3 n, vec3 to_eye) {
   float facing = 0.5 + 0.5 * dot(n, normalize(to_eye + vec3(0, 0, length(to_eye))));
   return vec4(toDisplay(gl_Color.rgb * mix(0.45, 1.25, facing)), opacity);
@@ -305,6 +356,10 @@ vec4 skin(vec3 n, vec3 to_eye) {
   vec3 pad = mix(gl_Color.rgb, vec3(1.0, 0.10, 0.04), pressure);
   vec3 albedo = mix(pad, state_color, 0.18 * (1.0 - pressure) + 0.72 * rim);
   return vec4(toDisplay(albedo * daylight(n, max(dot(n, key_direction), 0.0), 1.0)), mix(0.50, 0.95, rim));
+}
+vec4 land(vec3 n, vec3 to_eye) {
+  float haze = 1.0 - exp(-0.018 * length(to_eye));
+  return vec4(toDisplay(mix(landColor(n), openSky(0.0), haze)), 1.0);
 }
 void main() {
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
@@ -380,7 +435,7 @@ osg::ref_ptr<osg::Shader> fragments(const std::string& text, const std::string& 
 osg::ref_ptr<osg::Program> plain(const std::string& color) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(color);
-  for (const char* part : {kSky, kDaylight}) program->addShader(new osg::Shader(osg::Shader::VERTEX, part));
+  for (const char* part : {kSky, kDaylight, kLand}) program->addShader(new osg::Shader(osg::Shader::VERTEX, part));
   program->addShader(new osg::Shader(osg::Shader::VERTEX, defined(kPlainVertex, "#define COLOR " + color + "\n")));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlain));
   return program;
@@ -396,7 +451,7 @@ osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material:
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
-  for (const char* part : {kSky, kDaylight, kLight}) program->addShader(fragments(part, definitions));
+  for (const char* part : {kSky, kDaylight, kLand, kLight}) program->addShader(fragments(part, definitions));
   if (!plain) program->addShader(fragments(kGrain, definitions));
   program->addShader(fragments(std::string(kSurfaceDeclarations) + main, definitions));
   return program;
@@ -408,7 +463,7 @@ osg::ref_ptr<osg::Program> quickSurface(const char* name, Material::Texture text
                                   (grid ? "#define GRID 1\n" : "") + (open ? "#define OPEN\n" : "");
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
-  for (const char* part : {kSky, kDaylight, kQuickVertex})
+  for (const char* part : {kSky, kDaylight, kLand, kQuickVertex})
     program->addShader(new osg::Shader(osg::Shader::VERTEX, defined(part, definitions)));
   for (const char* part : {kSky, kQuickSurface}) program->addShader(fragments(part, definitions));
   return program;
@@ -436,6 +491,7 @@ osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open) {
 osg::ref_ptr<osg::Program> skin(bool quick) { return quick ? plain("skin") : surface("skin", kSkin); }
 osg::ref_ptr<osg::Program> glyph() { return plain("glyph"); }
 osg::ref_ptr<osg::Program> cone() { return plain("cone"); }
+osg::ref_ptr<osg::Program> land() { return plain("land"); }
 
 osg::ref_ptr<osg::Program> overlay() { return copying("overlay", kOverlay); }
 osg::ref_ptr<osg::Program> moments(int side) {
@@ -451,7 +507,7 @@ osg::ref_ptr<osg::Program> background() {
   program->setName("background");
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kBackgroundVertex));
   program->addShader(new osg::Shader(osg::Shader::VERTEX, kSky));
-  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kPlain));
+  program->addShader(new osg::Shader(osg::Shader::FRAGMENT, kBackground));
   return program;
 }
 

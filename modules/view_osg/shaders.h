@@ -23,6 +23,8 @@ osg::ref_ptr<osg::Program> skin(bool quick);
 osg::ref_ptr<osg::Program> glyph();
 /// Friction cone: translucent, denser towards grazing view; uniform `state_color`.
 osg::ref_ptr<osg::Program> cone();
+/// Land beyond the floor, out of doors: rock where it is steep, paler with distance.
+osg::ref_ptr<osg::Program> land();
 /// Puts the head-up display (texture `hud`, multiplied by its opacity) over the picture (`space`); positions in clip
 /// space.
 osg::ref_ptr<osg::Program> overlay();
@@ -30,7 +32,7 @@ osg::ref_ptr<osg::Program> overlay();
 /// twice `half_width` texels; uniform `depth_range` [m].
 osg::ref_ptr<osg::Program> moments(int side);
 osg::ref_ptr<osg::Program> blur(int half_width);
-/// Vertical gradient behind everything; uniform `crop`: lower edge and height of the rows drawn, as shares of the
+/// Behind everything: out of doors sky and sea, which meet at the horizon; else a vertical gradient, uniform `crop`: lower edge and height of the rows drawn, as shares of the
 /// picture's height.
 osg::ref_ptr<osg::Program> background();
 

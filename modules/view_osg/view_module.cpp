@@ -156,6 +156,7 @@ void ViewModule::drawWindow() {
   renderer_->render();
   if (pointer_) pointer_out_->value = pointer_->state();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
+  onwards_.store(renderer_->inputs().onwards, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
   sharpness_.store(renderer_->sharpness(), std::memory_order_relaxed);
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);

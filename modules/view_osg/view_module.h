@@ -33,6 +33,7 @@ class ViewModule final : public View {
   bool wantsStop() const noexcept override { return wants_stop_.load(std::memory_order_relaxed); }
   std::uint32_t undosWanted() const noexcept override { return undos_.load(std::memory_order_relaxed); }
   std::uint32_t inputs() const noexcept override { return inputs_.load(std::memory_order_relaxed); }
+  std::uint32_t onwardsWanted() const noexcept override { return onwards_.load(std::memory_order_relaxed); }
   double sharpness() const noexcept override { return sharpness_.load(std::memory_order_relaxed); }
   Screenshot screenshot() const override { return screenshot_; }
   std::string videoTrouble() const override { return video_trouble_; }
@@ -79,7 +80,7 @@ class ViewModule final : public View {
   std::optional<Video> video_;
   std::string video_trouble_;
   std::atomic<bool> wants_stop_{false};
-  std::atomic<std::uint32_t> undos_{0}, inputs_{0};
+  std::atomic<std::uint32_t> undos_{0}, onwards_{0}, inputs_{0};
   std::atomic<double> sharpness_{1};
   bool broken_ = false;  ///< drawing failed: the run continues without pictures
 };

@@ -149,6 +149,11 @@ bool WindowInput::key(const Event& event) {
       if (controls_.visitor) return true;
       picture_.parts().toggle(ShownPart::kTexture);
       return true;
+    case Event::KEY_Space:
+    case Event::KEY_Return:
+      if (!controls_.visitor) break;
+      ++inputs.onwards;
+      return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
       return true;

@@ -20,9 +20,9 @@ struct Controls {
   bool visitor = false;
 };
 
-/// Counters since the start: undo requests, and inputs of any kind.
+/// Counters since the start: undo requests, requests to go on, and inputs of any kind.
 struct Inputs {
-  std::uint32_t undos = 0, all = 0;
+  std::uint32_t undos = 0, onwards = 0, all = 0;
 };
 
 /// Dispatches mouse and keys of the window. `helpLines` lists them.

@@ -2,6 +2,7 @@
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
+#include "modules/view_osg/finish_walk.h"
 #include "modules/view_osg/follow_camera.h"
 #include "modules/view_osg/frame_budget.h"
 #include "modules/view_osg/frame_image.h"
@@ -20,7 +21,7 @@ class WindowRenderer final : public Renderer {
   WindowRenderer(Picture& picture, const std::string& title, const Controls& controls, const PictureOptions& options)
       : picture_(picture),
         keep_(controls.participant),
-        follow_(options),
+        follow_(options, picture.elevation()),
         camera_(static_cast<double>(options.width) / options.height),
         input_(new WindowInput(picture, camera_, controls)) {
     const WindowContext window = controls.participant ? participantWindow(title, options.width, options.height)
@@ -29,6 +30,7 @@ class WindowRenderer final : public Renderer {
       camera_.set(*place);
       input_->following = false;
     }
+    camera_.setGround(picture.ground());
     window_ = window.context;
     if (window.software) {
       picture.setQuick(true);
@@ -122,13 +124,18 @@ class WindowRenderer final : public Renderer {
   }
   /// Keeps bodies and fingers in the picture.
   void follow() {
-    camera_.set(follow_.at(viewer_.elapsedTime(), picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(),
-                           picture_.usedWidth(), std::exchange(input_->frame_requested, false)));
+    const CameraPose pose =
+        follow_.at(viewer_.elapsedTime(), picture_.subject(), viewer_.getCamera()->getViewport()->aspectRatio(),
+                   picture_.usedWidth(), std::exchange(input_->frame_requested, false));
+    const double finished = picture_.finishedFor();
+    camera_.set(finished < 0 ? walk_.at(-1, 0, pose, {})
+                             : walk_.at(finished, input_->inputs.all, pose, picture_.middleOfGoals()));
   }
 
   Picture& picture_;
   const bool keep_;  // the window stays open
   FollowCamera follow_;
+  FinishWalk walk_;
   CameraControl camera_;
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<WindowInput> input_;

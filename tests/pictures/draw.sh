@@ -59,7 +59,7 @@ draw() {  # PROGRAMS OUT NAME
       ;;
     temple_column)
       # status 1: the capital is not in its place yet
-      "$presa" temple --auto --lockstep --seed 7 --for 54.5 --screenshot "$2/$3.png" >"$scratch/log" 2>&1 ||
+      "$presa" temple --auto --lockstep --seed 7 --for 59.9 --screenshot "$2/$3.png" >"$scratch/log" 2>&1 ||
         (($? == 1)) || { cat "$scratch/log" >&2; return 1; }
       ;;
     cube_report)

@@ -38,6 +38,9 @@ void addPictureOptions(Command command, PictureArguments& asked, std::vector<std
               "scene, or without floor and sky: white, or transparent (PNG with alpha); off-screen pictures only")
       .oneOf({"scene", "white", "transparent"})
       .showDefault();
+  command.option("--light", asked.light, "time of day out of doors: noon, or evening with long shadows")
+      .oneOf({"noon", "evening"})
+      .showDefault();
   std::string parts;
   for (const std::string_view part : kShownPartNames) (parts += parts.empty() ? "" : ", ") += part;
   command
@@ -54,6 +57,7 @@ PictureOptions pictureOf(const PictureArguments& asked, const RunOptions& option
   if (!asked.size.empty()) parsePictureSize(asked.size, picture, diagnostics);
   if (asked.hud != "full") picture.hud = asked.hud == "off" ? PictureOptions::Hud::kOff : PictureOptions::Hud::kMinimal;
   picture.legend = asked.legend;
+  if (asked.light == "evening") picture.light = PictureOptions::Light::kEvening;
   if (asked.background == "scene") return picture;
   const bool transparent = asked.background == "transparent";
   picture.background = transparent ? PictureOptions::Background::kTransparent : PictureOptions::Background::kWhite;

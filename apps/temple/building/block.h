@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,18 @@ struct Footing {
   Vec3 size = Vec3::Zero();  ///< [m]
 };
 
+/// A person at the building's scale, only to be seen. Its frame B is on the ground between the feet, z up, facing -y.
+struct Figure {
+  TriMesh mesh;
+  Pose X_WB;
+  double height = 0;  ///< [m]
+};
+
 struct Building {
   std::string name;
   std::vector<Block> blocks;  ///< in an order in which it can be built
   std::vector<Footing> footings;
+  std::optional<Figure> figure;
   bool upright = false;  ///< Proportions::upright
   double top = 0;        ///< highest point above the ground [m]
 };

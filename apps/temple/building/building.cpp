@@ -6,9 +6,13 @@
 
 #include "apps/temple/building/column_blocks.h"
 #include "apps/temple/building/entablature_blocks.h"
+#include "apps/temple/building/figure.h"
 
 namespace presa::temple {
 namespace {
+
+constexpr double kPerson = 1.7;         // height [m]
+constexpr double kBehindStones = 0.22;  // of the person; stones fall before it [m]
 
 /// Sets block on block, from the ground up. `level_` is the height reached so far.
 class Builder {
@@ -32,6 +36,7 @@ class Builder {
     }
     if (p_.entablature) setEntablature();
     if (p_.pediment) setPediment();
+    if (p_.full_size > 0) standFigure();
     return std::move(building_);
   }
 
@@ -54,10 +59,13 @@ class Builder {
   void laySteps() {
     const double height = m(p_.steps.height);
     for (int i = 0; i < p_.steps.count; ++i) {
-      const double wider = m((p_.steps.count - 1 - i) * p_.steps.tread + 1.15);
+      const double treads = m((p_.steps.count - 1 - i) * p_.steps.tread);
+      // a lone column stands on a piece of its building's steps, which is cut off on the other sides
+      const double beyond = m(p_.steps.beyond) + (p_.entablature ? treads : 0);
+      const double before = m(Proportions::Steps::kBeforeAxis) + treads;
       building_.footings.push_back({"step" + std::to_string(i + 1),
-                                    {{0, behind_, level_ + height / 2}, Quat::Identity()},
-                                    {span_ + 2 * wider, 2 * wider, height}});
+                                    {{0, behind_ + (beyond - before) / 2, level_ + height / 2}, Quat::Identity()},
+                                    {span_ + 2 * beyond, before + beyond, height}});
       level_ += height;
     }
   }
@@ -72,6 +80,15 @@ class Builder {
     const double capital = m(p_.column.capital_height);
     place(makeCapital(p_, chipsOf(prefix + "capital")), prefix + "capital", {x, 0, level_ + capital / 2});
     level_ += capital;
+  }
+
+  /// A person beside the building, at its scale: on the ground to the left, behind it and where stones fall.
+  void standFigure() {
+    const Footing& widest = building_.footings.front();
+    const double height = kPerson * p_.module / p_.full_size;
+    const Vec3 p_WB(widest.X_WB.p.x() - widest.size.x() / 2 - 0.9 * height,
+                    std::max(widest.X_WB.p.y() + widest.size.y() / 2, kBehindStones), 0);
+    building_.figure = Figure{makeFigure(height), {p_WB, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitZ()))}, height};
   }
 
   void setEntablature() {
@@ -146,13 +163,21 @@ class Builder {
         const Vec3 along(-side * std::cos(slope), 0, std::sin(slope)), out(side * std::sin(slope), 0, std::cos(slope));
         return Vec3(Vec3(side * half, 0, level_) + up * along + off * out);
       };
-      place(makeRakingCornice(p_, ramp - 2 * joint, chipsOf("raking_cornice_" + name)), "raking_cornice_" + name,
-            at(ramp / 2, raking / 2), q_WB);
+      const auto closed = [&](Block block) {
+        mitre(block, -side, std::tan(slope));
+        return block;
+      };
+      place(closed(makeRakingCornice(p_, ramp - 2 * joint, chipsOf("raking_cornice_" + name))),
+            "raking_cornice_" + name, at(ramp / 2, raking / 2), q_WB);
       for (int i = 0; i < pediment.tiles; ++i) {
         const double each = ramp / pediment.tiles;
         const std::string tile_name = "tile_" + name + std::to_string(i + 1);
-        place(makeTile(p_, each - 2 * joint, chipsOf(tile_name)), tile_name, at((i + 0.5) * each, raking + tile / 2),
-              q_WB);
+        const bool top = i + 1 == pediment.tiles;
+        // at the ridge its lower edge reaches the other slope's
+        const double further = top ? raking * std::tan(slope) : 0;
+        Block block = makeTile(p_, each + further - 2 * joint, chipsOf(tile_name));
+        place(top ? closed(std::move(block)) : std::move(block), tile_name,
+              at((i + 0.5) * each + further / 2, raking + tile / 2), q_WB);
       }
     }
   }

@@ -154,7 +154,7 @@ Block makeTriglyph(const Proportions& p, double half_metope, RandomStream chips)
 }
 
 Block makeMetope(const Proportions& p, RandomStream chips) {
-  const double width = p.entablature->frieze_height * p.module - p.stone.joint;
+  const double width = p.entablature->metope_width * p.module - p.stone.joint;
   const double height = (p.entablature->frieze_height + p.entablature->band_height) * p.module;
   const double band = p.entablature->band_height * p.module, half = halfDepth(p);
   const Extrusion shape{kY, kZ, kX, tee(half - metopeRecess(p), half, height, band), {0, (height - band) / 2}, width};
@@ -203,6 +203,14 @@ Block makeTile(const Proportions& p, double length, RandomStream chips) {
                         {-0.8 * half, height / 2}, {-half, edge}, {-half, -height / 2}};
   return blockOf(BlockKind::kTile, extrude(p, {kY, kZ, kX, profile, {0, 0}, length}, chips),
                  {length, 2 * half, height});
+}
+
+void mitre(Block& block, int end, double slope) {
+  const Vec3 half = std::get<Box>(block.physics).size / 2;
+  for (TriMesh* mesh : {&block.visual, &block.haptic}) {
+    for (Vec3& vertex : mesh->vertices)
+      if (end * vertex.x() > 0) vertex.x() += end * slope * (vertex.z() + half.z());
+  }
 }
 
 }  // namespace presa::temple

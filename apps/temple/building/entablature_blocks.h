@@ -17,4 +17,9 @@ Block makeTympanum(const Proportions& proportions, double length, double left, d
 Block makeRakingCornice(const Proportions& proportions, double length, RandomStream chips);
 Block makeTile(const Proportions& proportions, double length, RandomStream chips);
 
+/// Extends the end at +x (`end` > 0) or -x of a block of the pediment's slope by `slope` times the height over its lower
+/// face, so that it meets the other slope's in the ridge's vertical plane. The meshes then reach beyond the physics box
+/// there, by `slope` times the block's height.
+void mitre(Block& block, int end, double slope);
+
 }  // namespace presa::temple

@@ -30,7 +30,9 @@ std::string numberText(double value) {
 class Part {
  public:
   explicit Part(const Element& element) : element_(element) {}
-  double number(const char* name) const { return measure(name).number("value", 0); }
+  double number(const char* name, double otherwise = 0) const {
+    return element_.children(name).empty() ? otherwise : measure(name).number("value", otherwise);
+  }
   int count(const char* name) const { return static_cast<int>(number(name)); }
   std::vector<double> numbers(const char* name) const { return measure(name).numbers("value"); }
   SourceLocation where(const char* name) const { return measure(name).where("value"); }
@@ -94,11 +96,17 @@ Proportions::Column readColumn(const Part& part, Diagnostics& diagnostics) {
 }
 
 Proportions::Entablature readEntablature(const Part& part, Diagnostics& diagnostics) {
-  const Proportions::Entablature e{part.numbers("intervals"),         part.number("depth"),
-                                   part.number("architrave_height"),  part.number("taenia_height"),
-                                   part.number("triglyph_width"),     part.number("frieze_height"),
-                                   part.number("band_height"),        part.number("cornice_height"),
-                                   part.number("cornice_projection"), part.count("cornice_blocks")};
+  const Proportions::Entablature e{part.numbers("intervals"),
+                                   part.number("depth"),
+                                   part.number("architrave_height"),
+                                   part.number("taenia_height"),
+                                   part.number("triglyph_width"),
+                                   part.number("frieze_height"),
+                                   part.number("band_height"),
+                                   part.number("cornice_height"),
+                                   part.number("cornice_projection"),
+                                   part.count("cornice_blocks"),
+                                   part.number("metope_width", part.number("frieze_height"))};
   for (const double interval : e.intervals) {
     const double triglyphs = interval / e.triglyphSpacing();
     if (triglyphs < 0.5 || std::abs(triglyphs - std::round(triglyphs)) > 1e-3)
@@ -144,9 +152,11 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
   p.name = root.attribute("name");
   p.upright = root.attribute("lie") == "upright";
   p.module = only("module")->number("value", 0);
+  if (const auto full_size = only("full_size")) p.full_size = full_size->number("value", 0);
   p.stone = readStone(Part(*only("stone")), diagnostics);
   const Part steps(*only("steps"));
-  p.steps = {steps.count("count"), steps.number("height"), steps.number("tread")};
+  p.steps = {steps.count("count"), steps.number("height"), steps.number("tread"),
+             steps.number("beyond", Proportions::Steps::kBeforeAxis)};
   p.column = readColumn(Part(*only("column")), diagnostics);
   if (const auto entablature = only("entablature")) p.entablature = readEntablature(Part(*entablature), diagnostics);
   if (const auto pediment = only("pediment"))
@@ -157,6 +167,17 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
 }  // namespace
 
 std::vector<std::string> shippedNames() { return {"first", "column", "facade"}; }
+std::vector<std::string> shippedPlans() { return {"vitruvius", "parthenon"}; }
+
+std::string buildingName(const std::string& size, const std::string& plan) {
+  return plan == "vitruvius" || size == "first" ? size : plan + "_" + size;
+}
+
+std::pair<std::string, std::string> sizeAndPlan(const std::string& building) {
+  for (const std::string& plan : shippedPlans())
+    if (building.starts_with(plan + "_")) return {building.substr(plan.size() + 1), plan};
+  return {building, "vitruvius"};
+}
 
 Proportions readProportions(const std::string& file, Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
@@ -164,10 +185,12 @@ Proportions readProportions(const std::string& file, Diagnostics& diagnostics) {
 }
 
 Proportions shippedProportions(const std::string& name, Diagnostics& diagnostics) {
-  const char* text = name == "first"    ? shipped::first
-                     : name == "column" ? shipped::column
-                     : name == "facade" ? shipped::facade
-                                        : nullptr;
+  const char* text = name == "first"              ? shipped::first
+                     : name == "column"           ? shipped::column
+                     : name == "facade"           ? shipped::facade
+                     : name == "parthenon_column" ? shipped::parthenon_column
+                     : name == "parthenon_facade" ? shipped::parthenon_facade
+                                                  : nullptr;
   if (text == nullptr) {
     diagnostics.error(976, {name, 0, 0},
                       "there is no building of size " + quote(name) + didYouMean(name, shippedNames()),

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/core/diagnostics/diagnostics.h"
@@ -12,7 +13,8 @@ namespace presa::temple {
 struct Proportions {
   std::string name;
   bool upright = false;  ///< in the ruins the blocks stand apart from each other instead of lying as they fell
-  double module = 0;     ///< [m]
+  double module = 0;     ///< of the model [m]
+  double full_size = 0;  ///< module of the building itself [m]; 0: not known
   struct Stone {
     double density = 0, lightest = 0,
            heaviest = 0;    ///< [kg/m^3], [kg], [kg]: mass = density * volume, clamped to lightest..heaviest
@@ -23,6 +25,10 @@ struct Proportions {
   struct Steps {
     int count = 0;
     double height = 0, tread = 0;
+    /// How far the top step goes on beside and behind the outermost columns' axes; the front edge is at kBeforeAxis. A
+    /// lone column has steps at the front only: they are a piece of its building's.
+    double beyond = kBeforeAxis;
+    static constexpr double kBeforeAxis = 1.15;
   } steps;
   struct Column {
     double height = 0;  ///< including the capital
@@ -38,8 +44,9 @@ struct Proportions {
     double triglyph_width = 0, frieze_height = 0, band_height = 0;
     double cornice_height = 0, cornice_projection = 0;
     int cornice_blocks = 0;
-    /// Distance between triglyph axes; a metope is as wide as it is high.
-    double triglyphSpacing() const { return triglyph_width + frieze_height; }
+    double metope_width = 0;  ///< as wide as it is high, unless the file says otherwise
+    /// Distance between triglyph axes.
+    double triglyphSpacing() const { return triglyph_width + metope_width; }
   };
   std::optional<Entablature> entablature;
   struct Pediment {
@@ -51,7 +58,8 @@ struct Proportions {
   std::optional<Pediment> pediment;
 };
 
-/// Reads and checks a file, or the shipped building of that name ("first", "column", "facade"). Errors go to
+/// Reads and checks a file, or the shipped building of that name ("first", "column", "facade"; with the measures of the
+/// Parthenon "parthenon_column", "parthenon_facade"). Errors go to
 /// `diagnostics`; the result is valid only if there are none. Never throws for bad input.
 ///   E970 format version  E971 drums, capital and dowels that do not fit each other
 ///   E972 triglyphs that do not fit the columns  E973 pediment without cornice, too steep or too flat
@@ -59,5 +67,10 @@ struct Proportions {
 Proportions readProportions(const std::string& file, Diagnostics& diagnostics);
 Proportions shippedProportions(const std::string& name, Diagnostics& diagnostics);
 std::vector<std::string> shippedNames();
+/// Plans whose measures a size can have: "vitruvius", "parthenon". The first task has its own for either.
+std::vector<std::string> shippedPlans();
+/// Name of the shipped building of this size after this plan, and back.
+std::string buildingName(const std::string& size, const std::string& plan);
+std::pair<std::string, std::string> sizeAndPlan(const std::string& building);
 
 }  // namespace presa::temple

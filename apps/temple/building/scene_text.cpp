@@ -25,6 +25,8 @@ std::string poseText(const Pose& X) {
 
 std::string meshName(const Block& block, const char* role) { return "meshes/" + block.name + "_" + role + ".obj"; }
 
+constexpr const char* kFigureMesh = "meshes/person.obj";
+
 std::string physicsText(const Block& block) {
   struct Text {
     const Block& block;
@@ -42,8 +44,22 @@ std::string physicsText(const Block& block) {
   return std::visit(Text{block}, block.physics);
 }
 
-std::string bodyText(const Block& block, const SceneSpec::Stone& stone, bool physics_only) {
-  std::string text = "  <body name=\"" + block.name + "\" material=\"marble\" " +
+/// Paint changes nothing but the colour.
+std::string marbleText(const std::string& name, const std::string& color) {
+  return "    <material name=\"" + name + "\" stiffness=\"1000\" damping=\"1\" color=\"" + color +
+         "\" texture=\"stone\"><friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.0025\"/></material>\n";
+}
+
+/// Triglyphs were blue, the ground of metopes red, that of the pediment blue [Brinkmann and Wünsche 2003].
+const char* materialOf(BlockKind kind, bool painted) {
+  if (!painted) return "marble";
+  if (kind == BlockKind::kTriglyph || kind == BlockKind::kTympanum) return "painted_blue";
+  return kind == BlockKind::kMetope ? "painted_red" : "marble";
+}
+
+std::string bodyText(const Block& block, const SceneSpec::Stone& stone, const SceneSpec& spec) {
+  const bool physics_only = spec.physics_only;
+  std::string text = "  <body name=\"" + block.name + "\" material=\"" + materialOf(block.kind, spec.painted) + "\" " +
                      (stone.fixed ? "fixed=\"true\" " : "") + poseText(stone.X_WB) + ">\n";
   if (!physics_only) {
     text += "    <visual><mesh file=\"" + meshName(block, "visual") + "\"/></visual>\n";
@@ -75,20 +91,23 @@ std::string sceneText(const Building& building, const SceneSpec& spec) {
   // no haptics while stones fall: the haptic group only provides the time base
   if (spec.physics_only) text += "  <rates haptic=\"200\" collision=\"100\" dynamics=\"200\" view=\"50\"/>\n";
   if (spec.fine_steps) text += "  <dynamics substeps=\"10\" iterations=\"100\"/>\n";
+  text += "  <materials>\n" + marbleText("marble", "0.68 0.60 0.47");
+  if (spec.painted) text += marbleText("painted_blue", "0.06 0.13 0.36") + marbleText("painted_red", "0.46 0.07 0.04");
   text +=
-      "  <materials>\n"
-      "    <material name=\"marble\" stiffness=\"1000\" damping=\"1\" color=\"0.68 0.60 0.47\" texture=\"stone\">"
-      "<friction static=\"0.7\" dynamic=\"0.6\" torsion=\"0.0025\"/></material>\n"
       "    <material name=\"limestone\" stiffness=\"1000\" damping=\"1\" color=\"0.50 0.45 0.36\" texture=\"stone\">"
       "<friction static=\"0.7\" dynamic=\"0.6\"/></material>\n"
       "    <material name=\"earth\" stiffness=\"1000\" damping=\"1\" color=\"0.23 0.20 0.13\" texture=\"earth\">"
       "<friction static=\"0.8\" dynamic=\"0.7\"/></material>\n"
+      "    <material name=\"cloth\" stiffness=\"1000\" color=\"0.50 0.24 0.15\">"
+      "<friction static=\"0.5\" dynamic=\"0.4\"/></material>\n"
       "  </materials>\n";
-  for (const SceneSpec::Stone& stone : spec.stones)
-    text += bodyText(building.blocks[stone.block], stone, spec.physics_only);
+  for (const SceneSpec::Stone& stone : spec.stones) text += bodyText(building.blocks[stone.block], stone, spec);
   constexpr double kThick = 0.04;
   text += footingText("ground", "earth", {{0, 0, -kThick / 2}, Quat::Identity()}, {2 * kGroundX, 2 * kGroundY, kThick});
   for (const Footing& step : building.footings) text += footingText(step.name, "limestone", step.X_WB, step.size);
+  if (building.figure && !spec.physics_only)
+    text += "  <body name=\"person\" fixed=\"true\" material=\"cloth\" " + poseText(building.figure->X_WB) +
+            ">\n    <visual><mesh file=\"" + kFigureMesh + "\"/></visual>\n  </body>\n";
   if (!spec.rig.empty()) {
     text += "  <devices>\n";
     for (const char* role : {"thumb", "index"})
@@ -119,6 +138,7 @@ std::vector<SceneFile> meshFiles(const Building& building, bool physics_only) {
     if (!block.physics_mesh.triangles.empty())
       files.push_back({meshName(block, "physics"), objText(block.physics_mesh)});
   }
+  if (building.figure && !physics_only) files.push_back({kFigureMesh, objText(building.figure->mesh)});
   return files;
 }
 

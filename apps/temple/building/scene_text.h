@@ -15,6 +15,7 @@ struct SceneSpec {
   };
   std::string name, description;
   std::vector<Stone> stones;
+  bool painted = false;       ///< in the colours of which traces were found, rather than bare stone
   bool physics_only = false;  ///< physics shapes only, without visual and haptic meshes
   /// More substeps and iterations of the dynamics. A heap or a façade is a single island: with half as many steps its
   /// stones creep by about 0.1 mm/s.

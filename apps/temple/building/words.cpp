@@ -4,6 +4,7 @@
 #include <array>
 
 #include "apps/temple/building/building_schemas.h"
+#include "apps/temple/building/proportions.h"
 #include "apps/temple/building/shipped.h"
 #include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/escaped.h"
@@ -31,12 +32,23 @@ AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
     diagnostics.error(968, root.where(), std::string("a ") + elementName(kind) + " has no <element> with its texts",
                       std::string("<element name=\"") + elementName(kind) + "\" called=\"…\" says=\"…\" waits=\"…\"/>");
   }
+  for (const std::string& task : shippedNames()) {
+    if (std::ranges::any_of(root.children("task"), [&](const auto& one) { return one.attribute("name") == task; }))
+      continue;
+    diagnostics.error(968, root.where(), "nothing says what stands when the task " + quote(task) + " is done",
+                      "<task name=\"" + task + "\" stands=\"…\" offers=\"…\"/>");
+  }
   for (const char* action : {"drag", "pinch", "lift", "turn"}) {
     if (std::ranges::find(words.actions, action, &AssemblyWords::Action::name) != words.actions.end()) continue;
     diagnostics.error(968, root.where(), std::string("nothing says how to ") + action,
                       std::string("<action name=\"") + action + "\" keys=\"…\" does=\"…\"/>");
   }
   return words;
+}
+
+/// Empty for another language.
+const char* shippedText(const std::string& language) {
+  return language == "en" ? shipped::words_en : language == "it" ? shipped::words_it : "";
 }
 
 std::string attribute(const char* name, const std::string& value) {
@@ -71,9 +83,18 @@ const char* elementName(BlockKind kind) {
 
 std::vector<std::string> shippedLanguages() { return {"en", "it"}; }
 
+TaskWords taskWords(const std::string& language, const std::string& task) {
+  Diagnostics diagnostics;
+  const auto document = xml::Document::parse(shippedText(language), "words", diagnostics);
+  if (!document) return {};
+  for (const xml::Element& one : document->root().children("task"))
+    if (one.attribute("name") == task) return {one.attribute("stands"), one.attribute("offers")};
+  return {};
+}
+
 AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics) {
-  const char* text = language == "en" ? shipped::words_en : language == "it" ? shipped::words_it : nullptr;
-  if (text == nullptr) {
+  const char* text = shippedText(language);
+  if (*text == '\0') {
     diagnostics.error(969, {"--language", 0, 0}, "there are no words in language " + quote(language), "en or it");
     return {};
   }

@@ -20,6 +20,15 @@ AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics
 /// The same from a file.
 AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics);
 
+/// What visitors are told about a task as a whole.
+struct TaskWords {
+  std::string stands;  ///< what was rebuilt
+  std::string offers;  ///< offers it as the next task; {time} is when it begins by itself
+};
+/// Those of a shipped building ("first", "column", "facade"), or empty texts for another name. `language` is a shipped
+/// one.
+TaskWords taskWords(const std::string& language, const std::string& task);
+
 /// The <words> element of a scene.
 std::string wordsText(const AssemblyWords& words);
 

@@ -34,8 +34,40 @@ TEST(Proportions, ShippedOnesAreGood) {
   }
 }
 
+// A name of a building says its size and its plan, and goes back to them.
+TEST(Proportions, EachPlanHasItsBuildings) {
+  for (const std::string& plan : shippedPlans()) {
+    for (const std::string& size : {"column", "facade"}) {
+      const std::string name = buildingName(size, plan);
+      EXPECT_EQ(sizeAndPlan(name), std::pair(std::string(size), plan));
+      Diagnostics diagnostics;
+      EXPECT_EQ(shippedProportions(name, diagnostics).name, name);
+      EXPECT_EQ(diagnostics.text(), "");
+    }
+    EXPECT_EQ(buildingName("first", plan), "first");
+  }
+}
+
+// Measures of the Parthenon in metres, as books give them, over half of its lower diameter; to half of the last digit of
+// the files.
+TEST(Proportions, TheParthenonsAreThoseOfBooks) {
+  Diagnostics diagnostics;
+  const Proportions p = shippedProportions("parthenon_facade", diagnostics);
+  ASSERT_EQ(diagnostics.text(), "");
+  const double module = 1.905 / 2;
+  EXPECT_NEAR(p.full_size, module, 1e-12);
+  EXPECT_NEAR(p.column.height, 10.433 / module, 5e-4);
+  EXPECT_NEAR(p.column.upper_diameter, 1.481 / module, 5e-4);
+  for (const double interval : p.entablature->intervals) EXPECT_NEAR(interval, 4.296 / module, 5e-4);
+  EXPECT_NEAR(p.entablature->architrave_height, 1.35 / module, 5e-4);
+  EXPECT_NEAR(p.entablature->triglyph_width, 0.845 / module, 5e-4);
+  EXPECT_NEAR(p.entablature->frieze_height + p.entablature->band_height, 1.35 / module, 1e-3);  // a sum of two
+  EXPECT_NEAR(2 * p.entablature->triglyphSpacing(), 4.296 / module, 5e-4);
+}
+
 TEST(Proportions, EveryMeasureNamesItsSource) {
-  for (const char* text : {shipped::column, shipped::facade}) {
+  for (const char* text :
+       {shipped::first, shipped::column, shipped::facade, shipped::parthenon_column, shipped::parthenon_facade}) {
     Diagnostics diagnostics;
     const auto document = xml::Document::parse(text, "shipped", diagnostics);
     for (const auto& part : document->root().children()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
 
 #include "apps/temple/building/shipped.h"
@@ -71,7 +72,12 @@ std::vector<Vec3> surface(const Block& block) {
 }  // namespace
 
 Proportions shippedWith(const std::string& name, const std::string& from, const std::string& to) {
-  std::string text = name == "first" ? shipped::first : name == "column" ? shipped::column : shipped::facade;
+  const std::map<std::string, const char*> texts{{"first", shipped::first},
+                                                 {"column", shipped::column},
+                                                 {"facade", shipped::facade},
+                                                 {"parthenon_column", shipped::parthenon_column},
+                                                 {"parthenon_facade", shipped::parthenon_facade}};
+  std::string text = texts.at(name);
   if (!from.empty()) {
     EXPECT_NE(text.find(from), std::string::npos) << from;
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "apps/common/file_text.h"
 #include "apps/temple/building/assembly_text.h"
@@ -51,6 +52,27 @@ TEST_P(Words, SpeakOfEveryBlockOfTheFacade) {
       EXPECT_FALSE(story.source.empty()) << story.says;
     }
   }
+}
+
+// When a task stands, a visitor reads what it was and what comes next, in one line of the screen: 880 pixels, some 90
+// letters. The texts differ from task to task and from language to language.
+TEST_P(Words, TellWhatStandsAndOfferEachTask) {
+  std::set<std::string> all;
+  for (const std::string& task : shippedNames()) {
+    const TaskWords words = taskWords(GetParam(), task);
+    for (const std::string& text : {words.stands, words.offers}) {
+      EXPECT_GT(text.size(), 20U) << task;
+      EXPECT_LE(text.size(), 92U) << text;
+      all.insert(text);
+    }
+    EXPECT_EQ(placesIn(words.offers), std::vector<std::string>{"time"}) << words.offers;
+    EXPECT_TRUE(placesIn(words.stands).empty()) << words.stands;
+    for (const std::string& other : shippedLanguages()) {
+      if (other != GetParam()) EXPECT_NE(taskWords(other, task).stands, words.stands);
+    }
+  }
+  EXPECT_EQ(all.size(), 2 * shippedNames().size());
+  EXPECT_EQ(taskWords(GetParam(), "elsewhere").stands, "");
 }
 
 TEST_P(Words, ComeThroughASceneUnchanged) {
@@ -109,6 +131,7 @@ TEST_P(Words, HaveTheSameSourcesInEachLanguage) {
 INSTANTIATE_TEST_SUITE_P(Languages, Words, testing::ValuesIn(shippedLanguages()));
 
 TEST(WordsFile, IsChecked) {
+  EXPECT_EQ(codesOf("<task name=\"facade\"", "<task name=\"palace\""), std::vector<int>{968});
   EXPECT_EQ(codesOf("{count} of {all}", "{count} of {every}"), std::vector{219});
   EXPECT_EQ(codesOf("finished=\"It stands again.\"", "finished=\"{count} stand.\""), std::vector{219});
   EXPECT_EQ(codesOf("name=\"metope\"", "name=\"metopa\""), std::vector{968});

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kIgnore = 0.3;  // share of visitors who ignore what they are shown
 constexpr double kDepthGuessed = 0.03, kDepthSeen = 0.008, kAcross = 0.002;  // [m]
-constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;           // [m]
-constexpr double kReaction = 0.5, kLongPause = 0.1;  // median of a pause [s]; share of long ones
-constexpr int kMaxTries = 6;                         // of one aim, before it starts again
+const double kSeenFrom = std::sin(26 * std::numbers::pi / 180);     // these depths are guessed from 26 degrees above
+constexpr double kDepthPractised = 0.003, kTherePractised = 0.007;  // [m]
+constexpr double kReaction = 0.5, kLongPause = 0.1;                 // median of a pause [s]; share of long ones
+constexpr int kMaxTries = 6;                                        // of one aim, before it starts again
 
 double yawOff(const Pose& X_WB, const AssemblyGoal& goal) {
   return poseDifference(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB).angle;
@@ -30,6 +31,7 @@ NaiveVisitor::NaiveVisitor(std::shared_ptr<const World> world, std::uint64_t see
       hand_(practised ? HandTraits{.overshoot = 0, .scatter = 0.03, .tremor = 0.0005} : drawHand(random_), random_),
       waits_(world_->scene.bodies.size()) {
   drawKnowledge(cues);
+  practised_ = practised;
   if (!practised) return;
   ignores_ = false;
   known_ = {};
@@ -96,11 +98,14 @@ Vec3 NaiveVisitor::fingers() const { return (device_->fingers[0].p_WH + device_-
 
 double NaiveVisitor::opening() const { return (device_->fingers[0].p_WH - device_->fingers[1].p_WH).norm(); }
 
-/// Where a point seems to be: right across the line of sight, a guess along it.
+/// Where a point seems to be: right across the line of sight, a guess along it, which gets worse the more the ground is
+/// seen from its edge; the practised look from two sides first.
 Vec3 NaiveVisitor::guess(const Vec3& p_W) {
   const view::CameraAxes axes = camera_.axes();
   const Vec3 level = Vec3::UnitZ().cross(axes.right);
-  return p_W + kAcross * random_.normal() * axes.right + depth_ * random_.normal() * level +
+  const double down = std::max(0.1, -(p_W - camera_.pose().eye).normalized().z());
+  return p_W + kAcross * random_.normal() * axes.right +
+         depth_ * (practised_ ? 1 : kSeenFrom / down) * random_.normal() * level +
          kAcross * random_.normal() * Vec3::UnitZ();
 }
 

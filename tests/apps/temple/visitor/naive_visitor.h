@@ -69,10 +69,10 @@ class NaiveVisitor final : public Module {
   RandomStream random_;
   view::PointerControl pointer_{{0, 1}};
   view::CameraControl camera_{16.0 / 9};
-  view::FollowCamera follow_{PictureOptions{}};
+  view::FollowCamera follow_{PictureOptions{}, view::kEyeLevel};
   MouseHand hand_;
   Known known_;
-  bool ignores_ = false;
+  bool ignores_ = false, practised_ = false;
   double there_ = 0.014;  // nearer does not look better [m]
   double depth_ = 0;      // standard deviation of a guess along the line of sight [m]
   double now_ = 0, until_ = 0;
