@@ -1,0 +1,177 @@
+// `--show joints`: glyphs are where optics and the joint's formula say, and are kept right by the retained pictures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "modules/view_osg/picture.h"
+#include "tests/modules/view_osg/pinch_world.h"
+#include "tests/modules/view_osg/png_picture.h"
+
+namespace presa::view_test {
+namespace {
+
+constexpr double kHeight = 0.1, kEye = 0.8;  // of the cube, of the camera above it [m]
+
+Joint cubeJoint(JointType type, const Vec3& axis, double lower, double upper) {
+  Joint joint;
+  joint.name = "joint";
+  joint.type = type;
+  joint.body = 1;
+  joint.axes.resize(1);
+  joint.axes[0].dhat_B = axis;
+  joint.axes[0].turns = type == JointType::kHinge;
+  joint.axes[0].lower = lower, joint.axes[0].upper = upper;
+  return joint;
+}
+
+/// The cube at kHeight, with this joint, seen from above.
+PinchRun runWith(const Joint& joint, const std::string& file, const std::vector<std::string>& show) {
+  PinchRun run = makePinchRun(RunOptions::View::kOffscreen, file);
+  run.world->scene.bodies[1].X_WB.p = {0, 0, kHeight};
+  run.world->scene.joints.push_back(joint);
+  run.options.show = show;
+  run.options.picture = {.camera = CameraPlace{{0, 0, kHeight + kEye}, {0, 0, kHeight}},
+                         .hud = PictureOptions::Hud::kOff,
+                         .background = PictureOptions::Background::kWhite};
+  return run;
+}
+
+PinchStates statesOf(const PinchRun& run, const Vec3& p_WO, double yaw) {
+  PinchStates states = makePinchStates(*run.world, p_WO, yaw);
+  states.device = DeviceState(), states.contacts = ContactExchange();
+  return states;
+}
+
+PngPicture draw(const Joint& joint, const Vec3& p_WO, double yaw,
+                std::vector<std::string> show = {"joints", "no-visual"}) {
+  const std::string file = tempFile("joint.png");
+  const PinchRun run = runWith(joint, file, show);
+  EXPECT_EQ(drawOnce(run, statesOf(run, p_WO, yaw)).outcome, View::Screenshot::Outcome::kWritten);
+  return PngPicture(file);
+}
+
+bool isHand(const Color& c) { return c.g > 90 && 3 * c.g > 4 * c.r && 3 * c.g > 4 * c.b; }
+bool isFrame(const Color& c) { return c.b > 90 && 3 * c.b > 4 * c.r && 2 * c.b > 3 * c.g; }
+
+/// Points of these pixels in the plane of the joint, from the joint [m]: a pinhole camera.
+std::vector<Eigen::Vector2d> pointsOf(const PngPicture& picture, bool (*is)(const Color&)) {
+  const double metres = kEye * std::tan(view::kFieldOfView / 2 * std::numbers::pi / 180) / (picture.height() / 2.0);
+  std::vector<Eigen::Vector2d> points;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x)
+      if (is(picture.at(x, y)))
+        points.emplace_back(metres * (x + 0.5 - picture.width() / 2.0), metres * (picture.height() / 2.0 - y - 0.5));
+  return points;
+}
+
+double farthestAngle(const std::vector<Eigen::Vector2d>& points) {
+  const auto tip = std::ranges::max_element(points, {}, [](const Eigen::Vector2d& p) { return p.norm(); });
+  return std::atan2(tip->y(), tip->x());
+}
+
+// The hand ends in a ball of 2 mm at 25 mm, whose farthest pixel may lie up to a pixel (0.55 mm) aside: 1.5 degrees.
+TEST(ShownJoints, TheHandOfAHingePointsAlongItsAngle) {
+  for (const double angle : {-0.4, 0.0, 0.9}) {
+    const PngPicture picture = draw(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), {0, 0, kHeight}, angle);
+    const auto hand = pointsOf(picture, isHand);
+    ASSERT_GT(hand.size(), 50u) << angle;
+    EXPECT_NEAR(farthestAngle(hand), angle, 1.5 * std::numbers::pi / 180);
+  }
+}
+
+// The stops are the parts of the frame that are farthest from the axis: at both limits, to the width of their rods.
+TEST(ShownJoints, TheArcOfAHingeEndsAtItsStops) {
+  const auto frame =
+      pointsOf(draw(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), {0, 0, kHeight}, 0), isFrame);
+  ASSERT_GT(frame.size(), 100u);
+  double reach = 0, low = 9, high = -9;
+  for (const auto& p : frame) reach = std::max(reach, p.norm());
+  for (const auto& p : frame) {
+    if (p.norm() < 0.9 * reach) continue;
+    low = std::min(low, std::atan2(p.y(), p.x())), high = std::max(high, std::atan2(p.y(), p.x()));
+  }
+  EXPECT_NEAR(low, -0.5, 0.08);
+  EXPECT_NEAR(high, 1.2, 0.08);
+}
+
+// True to scale to 2 mm: a pixel and half the thickness of a stop; the tick has 6 mm.
+TEST(ShownJoints, ASliderShowsItsTravelToScale) {
+  const PngPicture picture = draw(cubeJoint(JointType::kSlider, Vec3::UnitX(), -0.05, 0.12), {0.07, 0, kHeight}, 0);
+  double low = 9, high = -9, tick = 0;
+  const auto frame = pointsOf(picture, isFrame), hand = pointsOf(picture, isHand);
+  for (const auto& p : frame) low = std::min(low, p.x()), high = std::max(high, p.x());
+  ASSERT_FALSE(hand.empty());
+  for (const auto& p : hand) tick += p.x() / static_cast<double>(hand.size());
+  EXPECT_NEAR(low, -0.05, 2e-3);
+  EXPECT_NEAR(high, 0.12, 2e-3);
+  EXPECT_NEAR(tick, 0.07, 2e-3);
+}
+
+TEST(ShownJoints, OnlyWhereAskedFor) {
+  const Joint joint = cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2);
+  for (const auto& show : {std::vector<std::string>{"no-visual"}, {"no-visual", "joints", "no-joints"}}) {
+    EXPECT_TRUE(pointsOf(draw(joint, {0, 0, kHeight}, 0, show), isHand).empty());
+    EXPECT_TRUE(pointsOf(draw(joint, {0, 0, kHeight}, 0, show), isFrame).empty());
+  }
+}
+
+TEST(ShownJoints, CostNoNodeUntilTheyAreShown) {
+  const auto nodes = [](osg::Group& group) { return group.getNumChildren(); };
+  const PinchRun run = runWith(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), "", {});
+  view::Picture picture(run.world, run.options);
+  view::ViewFrame frame;
+  for (const Body& body : run.world->scene.bodies) frame.X_WB.push_back(body.X_WB);
+  const unsigned space = nodes(*picture.space()), labels = nodes(picture.hud().center());
+  picture.follow(frame, {});
+  picture.show(frame, {});
+  EXPECT_EQ(nodes(*picture.space()), space);
+  EXPECT_EQ(nodes(picture.hud().center()), labels);
+  picture.parts().toggle(ShownPart::kJoints);
+  picture.show(frame, {});
+  EXPECT_EQ(nodes(*picture.space()), space + 1);
+  EXPECT_EQ(nodes(picture.hud().center()), labels + 1);
+}
+
+// A wheel turns about the middle of its arc: the hand moves inside of what stands still. 24 codes as in retained_test.
+TEST(ShownJoints, AFilmEqualsPicturesDrawnAnew) {
+  const auto film = [](const std::string& name, int first, int last) {
+    const std::string folder = tempFile(name + std::to_string(first));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    PinchRun run = runWith(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -1, 3), "", {"joints", "no-visual"});
+    run.options.screenshots = folder;
+    run.options.screenshot_every = 0.02;
+    run.options.picture.width = 640, run.options.picture.height = 360;
+    run.options.picture.background = PictureOptions::Background::kScene;
+    view::ViewModule module(run.world, run.options);
+    Feed feed(module);
+    module.start();
+    for (int i = first; i <= last; ++i) {
+      feed.publish(statesOf(run, {0, 0, kHeight}, 0.3 * i), 0.04 * i);
+      module.step({static_cast<std::uint64_t>(i), 0.04 * i, 0.04});
+    }
+    module.stop();
+    return folder;
+  };
+  const std::string whole = film("film", 0, 6);
+  for (const int frame : {1, 3, 6}) {
+    std::array<char, 32> name;
+    std::snprintf(name.data(), name.size(), "/%09.3f.png", 0.04 * frame);
+    const PngPicture kept(whole + name.data()), anew(film("alone", frame, frame) + name.data());
+    int different = 0;
+    for (int y = 0; y < kept.height(); ++y)
+      for (int x = 0; x < kept.width(); ++x) {
+        const Color a = kept.at(x, y), b = anew.at(x, y);
+        different += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 24;
+      }
+    EXPECT_LT(different, 20) << "frame " << frame;
+    EXPECT_NEAR(farthestAngle(pointsOf(kept, isHand)), 0.3 * frame, 0.06);
+  }
+}
+
+}  // namespace
+}  // namespace presa::view_test
