@@ -58,8 +58,11 @@ int check(const CheckArguments& arguments) {
     std::size_t triangles = 0;
     for (const BodyMeshes& meshes : loaded.world->meshes)
       triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
-    std::printf("%s: good (%zu bodies, %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
-                loaded.world->scene.bodies.size(), loaded.world->scene.materials.size(),
+    const std::size_t joints = loaded.world->scene.joints.size();
+    const std::string jointed =
+        joints == 0 ? "" : ' ' + std::to_string(joints) + (joints == 1 ? " joint," : " joints,");
+    std::printf("%s: good (%zu bodies,%s %zu materials, %zu devices, %zu haptic triangles)\n", scene.c_str(),
+                loaded.world->scene.bodies.size(), jointed.c_str(), loaded.world->scene.materials.size(),
                 loaded.world->scene.devices.size(), triangles);
     for (const DecomposedMesh& mesh : decompositionsOf(*loaded.world)) std::printf("  %s\n", textOf(mesh).c_str());
   }
