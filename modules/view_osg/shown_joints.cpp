@@ -11,7 +11,7 @@ namespace presa::view {
 namespace {
 
 constexpr float kSize = 15, kLetter = 0.602F * kSize, kPad = 6, kHigh = 22;  // DejaVu Sans Mono; [lines]
-constexpr float kAside = 22, kAbove = 20;                                    ///< of a label from its joint [lines]
+constexpr float kAside = 26, kAbove = 30;                                    ///< of a label from its joint [lines]
 constexpr float kHalfHeight = 360, kMargin = 6;
 constexpr double kNearest = 0.01;  ///< in front of the eye [m]
 constexpr double kJump = 0.25;     ///< frames farther apart are not one motion [s]

@@ -47,6 +47,11 @@ std::string forcesText(const Joint& joint, std::size_t i) {
   return text;
 }
 
+std::string wordOf(JointType type) {
+  if (type == JointType::kHinge || type == JointType::kSlider) return nameOf(type);
+  return type == JointType::kPrismaticRotary ? "prismatic-rotary joint" : std::string(nameOf(type)) + " joint";
+}
+
 }  // namespace
 
 std::string positionText(const Joint& joint, std::size_t i, double position) {
@@ -58,7 +63,7 @@ std::string positionText(const Joint& joint, std::size_t i, double position) {
 }
 
 std::string describeJoint(const Scene& scene, const Joint& joint) {
-  std::string text = std::string(nameOf(joint.type)) + " of " + scene.bodies[joint.body].name + " to " +
+  std::string text = wordOf(joint.type) + " of " + scene.bodies[joint.body].name + " to " +
                      (joint.to == Joint::kWorld ? "the world" : scene.bodies[joint.to].name);
   for (std::size_t i = 0; i < joint.axes.size(); ++i) {
     if (i > 0) text += "; and";
