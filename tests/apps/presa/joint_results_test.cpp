@@ -23,11 +23,11 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kStep = 1.0 / 200, kDuration = 2, kSpeed = 7, kFall = 0.05, kG = 9.81;
+constexpr double kStep = 1.0 / 200, kRunFor = 2, kSpeed = 7, kFall = 0.05, kG = 9.81;
 constexpr double kDegree = std::numbers::pi / 180;
 
 /// A wheel that a motor turns at kSpeed, a weight that falls by kFall to its stop, and a lamp that is glued on.
-std::string machine() {
+std::string jointMachine() {
   const auto body = [](const std::string& name, const std::string& pos, const std::string& size) {
     return "<body name=\"" + name + "\" pos=\"" + pos + "\"><haptic><box size=\"" + size +
            "\"/></haptic><physics mass=\"0.2\"><box size=\"" + size + "\"/></physics></body>";
@@ -45,8 +45,9 @@ std::string machine() {
   return file;
 }
 
-std::string run(const std::string& more) {
-  const test::Outcome outcome = test::presa("run " + machine() + " --lockstep --for 2 --view none --quiet " + more);
+std::string runMachine(const std::string& more) {
+  const test::Outcome outcome =
+      test::presa("run " + jointMachine() + " --lockstep --for 2 --view none --quiet " + more);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return outcome.out;
 }
@@ -55,14 +56,14 @@ std::string run(const std::string& more) {
 // is known to one step. The fall takes sqrt(2 h / g), to one step.
 TEST(JointResults, SummaryHasRangesAndTimesAtStops) {
   const std::string file = test::scratch("joints.json");
-  run("--summary " + file);
+  runMachine("--summary " + file);
   const json joints = json::parse(contentsOf(file))["joints"];
   ASSERT_EQ(joints.size(), 3u);
   EXPECT_EQ(joints[0]["name"], "axle");
   EXPECT_EQ(joints[0]["type"], "hinge");
   const json axle = joints[0]["positions"][0], mast = joints[1]["positions"][0];
   EXPECT_EQ(axle["unit"], "deg");
-  EXPECT_NEAR(axle["end"].get<double>() * kDegree, kSpeed * kDuration, kSpeed * kStep);
+  EXPECT_NEAR(axle["end"].get<double>() * kDegree, kSpeed * kRunFor, kSpeed * kStep);
   EXPECT_EQ(axle["max"], axle["end"]);
   EXPECT_NEAR(axle["start"].get<double>(), 0, 1e-9);
   EXPECT_TRUE(axle["at_lower_s"].is_null());
@@ -70,7 +71,7 @@ TEST(JointResults, SummaryHasRangesAndTimesAtStops) {
   EXPECT_NEAR(mast["min"].get<double>(), -kFall, kAtStop);
   EXPECT_NEAR(mast["end"].get<double>(), -kFall, kAtStop);
   EXPECT_NEAR(mast["max"].get<double>(), 0, 1e-9);
-  EXPECT_NEAR(mast["at_lower_s"].get<double>(), kDuration - std::sqrt(2 * kFall / kG), 2 * kStep);
+  EXPECT_NEAR(mast["at_lower_s"].get<double>(), kRunFor - std::sqrt(2 * kFall / kG), 2 * kStep);
   EXPECT_EQ(mast["at_upper_s"], 0.0);
   EXPECT_TRUE(joints[2]["positions"].empty());
 }
@@ -90,7 +91,7 @@ TEST(JointResults, OnlyScenesWithJointsTellOfThem) {
 
 TEST(JointResults, ReportHasATableAndAPlotForEachUnit) {
   const std::string file = test::scratch("joints.html");
-  run("--report " + file);
+  runMachine("--report " + file);
   const std::string page = contentsOf(file);
   EXPECT_THAT(page, HasSubstr("<h2>Joints</h2>"));
   EXPECT_THAT(page, HasSubstr("Angles of the joints over time"));
@@ -102,7 +103,7 @@ TEST(JointResults, ReportHasATableAndAPlotForEachUnit) {
 // so between its ends the fall is off by g h^2 / 8, and a symplectic step by g t h / 2.
 TEST(JointResults, RecordingGivesPositionsFromItsPoses) {
   const std::string file = test::scratch("joints.h5");
-  run("--overwrite --record " + file);
+  runMachine("--overwrite --record " + file);
   const Recording recording = recordPlugin().read(file);
   const RecordedSamples samples = recordPlugin().samples(file);
   Diagnostics diagnostics;
@@ -150,7 +151,7 @@ int violet(const std::string& file) {
 TEST(JointResults, ReplayDrawsJointsWhereAskedFor) {
   const std::string file = test::scratch("shown.h5"), with = test::scratch("with.png"),
                     none = test::scratch("none.png");
-  run("--overwrite --record " + file);
+  runMachine("--overwrite --record " + file);
   const std::string how = "replay " + file + " --view offscreen --hud off --background white --screenshot ";
   EXPECT_EQ(test::presa(how + with + " --show joints").status, 0);
   EXPECT_EQ(test::presa(how + none).status, 0);
@@ -159,7 +160,7 @@ TEST(JointResults, ReplayDrawsJointsWhereAskedFor) {
 }
 
 TEST(JointResults, ExplainAndCheckTellOfThem) {
-  const std::string scene = machine();
+  const std::string scene = jointMachine();
   const std::string text = test::presa("explain " + scene).out;
   EXPECT_THAT(
       text,

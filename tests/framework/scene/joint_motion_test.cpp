@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Quat turned(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis.normalized())); }
+Quat turnAbout(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis.normalized())); }
 
 /// Two bodies in start poses that are nothing special, and one joint from the second to the first.
 Scene sceneWith(JointType type, const std::vector<Vec3>& axes) {
   Scene scene;
   scene.bodies.resize(2);
   scene.bodies[0].name = "frame", scene.bodies[1].name = "part";
-  scene.bodies[0].X_WB = {{0.1, -0.2, 0.3}, turned(0.7, {1, 2, 3})};
-  scene.bodies[1].X_WB = {{-0.2, 0.1, 0.4}, turned(-1.1, {2, -1, 1})};
+  scene.bodies[0].X_WB = {{0.1, -0.2, 0.3}, turnAbout(0.7, {1, 2, 3})};
+  scene.bodies[1].X_WB = {{-0.2, 0.1, 0.4}, turnAbout(-1.1, {2, -1, 1})};
   Joint joint;
   joint.name = "joint";
   joint.type = type;
@@ -37,13 +37,13 @@ Scene sceneWith(JointType type, const std::vector<Vec3>& axes) {
 /// Both bodies after the part moved by `d_B` and turned by `q_B` about the joint, in its start axes, and the pair was
 /// carried somewhere else.
 std::vector<Pose> moved(const Scene& scene, const Vec3& d_B, const Quat& q_B) {
-  const Pose away{{0.5, 0.4, -0.3}, turned(2.0, {-1, 0.5, 2})};
+  const Pose away{{0.5, 0.4, -0.3}, turnAbout(2.0, {-1, 0.5, 2})};
   const Vec3& p_BJ = scene.joints[0].p_BJ;
   const Pose step{p_BJ + d_B - q_B * p_BJ, q_B};
   return {away * scene.bodies[0].X_WB, away * (scene.bodies[1].X_WB * step)};
 }
 
-void follow(JointMotion& motion, const std::vector<Pose>& X_WB) {
+void followJoints(JointMotion& motion, const std::vector<Pose>& X_WB) {
   motion.follow([&](std::size_t body) { return X_WB[body]; });
 }
 
@@ -55,7 +55,7 @@ TEST(JointMotion, PositionsAreWhatThePartWasMovedBy) {
     const Scene scene = sceneWith(type, axes);
     JointMotion motion(scene);
     const double slides = type == JointType::kHinge ? 0 : 0.13, turns = type == JointType::kSlider ? 0 : -0.8;
-    follow(motion, moved(scene, slides * axis, turned(turns, axis)));
+    followJoints(motion, moved(scene, slides * axis, turnAbout(turns, axis)));
     const std::size_t last = positionCount(scene.joints[0]) - 1;
     EXPECT_NEAR(motion.position(0, last), type == JointType::kSlider ? slides : turns, 1e-12);
     if (last == 1) EXPECT_NEAR(motion.position(0, 0), slides, 1e-12);
@@ -73,20 +73,20 @@ TEST(JointMotion, AnglesGoOnBeyondHalfATurn) {
   double angle = 0;
   const auto go = [&](double by) {
     angle += by;
-    follow(motion, moved(scene, Vec3::Zero(), turned(angle, Vec3::UnitY())));
+    followJoints(motion, moved(scene, Vec3::Zero(), turnAbout(angle, Vec3::UnitY())));
     EXPECT_NEAR(motion.position(0, 0), angle, 1e-9);
   };
   for (int i = 0; i < 11; ++i) go(step);
   for (int i = 0; i < 29; ++i) go(-step);
   motion.forgetTurns();
-  follow(motion, moved(scene, Vec3::Zero(), turned(angle, Vec3::UnitY())));
+  followJoints(motion, moved(scene, Vec3::Zero(), turnAbout(angle, Vec3::UnitY())));
   EXPECT_NEAR(motion.position(0, 0), std::remainder(angle, 2 * kPi), 1e-9);
 }
 
 TEST(JointMotion, ABallTellsItsAngleAndAFixedJointNothing) {
   const Scene ball = sceneWith(JointType::kBall, {}), fixed = sceneWith(JointType::kFixed, {});
   JointMotion motion(ball);
-  follow(motion, moved(ball, Vec3::Zero(), turned(-2.5, {1, 1, 0})));
+  followJoints(motion, moved(ball, Vec3::Zero(), turnAbout(-2.5, {1, 1, 0})));
   EXPECT_EQ(positionCount(ball.joints[0]), 1u);
   EXPECT_NEAR(motion.position(0, 0), 2.5, 1e-12);
   EXPECT_EQ(positionCount(fixed.joints[0]), 0u);
@@ -101,7 +101,7 @@ TEST(JointMotion, OpeningIsThePartOfAMotionThatTheJointLocks) {
     double distance, angle;
   };
   // moved by 3 mm along z and 4 mm along x, turned by 0.3 rad about z, then by 0.02 rad about x
-  const Quat bent = turned(0.3, z) * turned(0.02, x);
+  const Quat bent = turnAbout(0.3, z) * turnAbout(0.02, x);
   const double all = 2 * std::acos(std::cos(0.15) * std::cos(0.01));  // of the whole turn
   for (const Case& one :
        {Case{JointType::kFixed, {}, 5e-3, all}, Case{JointType::kHinge, {z}, 5e-3, 0.02},
@@ -109,7 +109,7 @@ TEST(JointMotion, OpeningIsThePartOfAMotionThatTheJointLocks) {
         Case{JointType::kUniversal, {z, x}, 5e-3, 0}, Case{JointType::kPrismaticRotary, {z, z}, 4e-3, 0.02}}) {
     const Scene scene = sceneWith(one.type, one.axes);
     JointMotion motion(scene);
-    follow(motion, moved(scene, 3e-3 * z + 4e-3 * x, bent));
+    followJoints(motion, moved(scene, 3e-3 * z + 4e-3 * x, bent));
     const JointOpening opening = openingOf(scene.joints[0], motion.pose(0));
     EXPECT_NEAR(opening.distance, one.distance, 1e-12) << nameOf(one.type);
     EXPECT_NEAR(opening.angle, one.angle, 1e-7) << nameOf(one.type);
@@ -117,7 +117,7 @@ TEST(JointMotion, OpeningIsThePartOfAMotionThatTheJointLocks) {
   // a turn about the third direction of a universal joint is locked
   const Scene scene = sceneWith(JointType::kUniversal, {z, x});
   JointMotion motion(scene);
-  follow(motion, moved(scene, Vec3::Zero(), turned(0.05, Vec3::UnitY())));
+  followJoints(motion, moved(scene, Vec3::Zero(), turnAbout(0.05, Vec3::UnitY())));
   EXPECT_NEAR(openingOf(scene.joints[0], motion.pose(0)).angle, 0.05, 1e-12);
 }
 

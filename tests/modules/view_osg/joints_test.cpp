@@ -14,7 +14,7 @@
 namespace presa::view_test {
 namespace {
 
-constexpr double kHeight = 0.1, kEye = 0.8, kArm = 0.02;  // cube, camera above it; cube from its hinge along x [m]
+constexpr double kCubeHeight = 0.1, kEye = 0.8, kArm = 0.02;  // cube, camera above it; cube from its hinge along x [m]
 
 Joint cubeJoint(JointType type, const Vec3& axis, double lower, double upper) {
   Joint joint;
@@ -29,20 +29,20 @@ Joint cubeJoint(JointType type, const Vec3& axis, double lower, double upper) {
   return joint;
 }
 
-/// The cube at kHeight, with this joint, seen from above.
+/// The cube at kCubeHeight, with this joint, seen from above.
 PinchRun runWith(const Joint& joint, const std::string& file, const std::vector<std::string>& show) {
   PinchRun run = makePinchRun(RunOptions::View::kOffscreen, file);
-  run.world->scene.bodies[1].X_WB.p = Vec3(0, 0, kHeight) - joint.p_BJ;
+  run.world->scene.bodies[1].X_WB.p = Vec3(0, 0, kCubeHeight) - joint.p_BJ;
   run.world->scene.joints.push_back(joint);
   run.options.show = show;
-  run.options.picture = {.camera = CameraPlace{{0, 0, kHeight + kEye}, {0, 0, kHeight}},
+  run.options.picture = {.camera = CameraPlace{{0, 0, kCubeHeight + kEye}, {0, 0, kCubeHeight}},
                          .hud = PictureOptions::Hud::kOff,
                          .background = PictureOptions::Background::kWhite};
   return run;
 }
 
 /// Place of the cube at an angle of its hinge.
-Vec3 swung(double angle) { return {kArm * std::cos(angle), kArm * std::sin(angle), kHeight}; }
+Vec3 swung(double angle) { return {kArm * std::cos(angle), kArm * std::sin(angle), kCubeHeight}; }
 
 PinchStates statesOf(const PinchRun& run, const Vec3& p_WO, double yaw) {
   PinchStates states = makePinchStates(*run.world, p_WO, yaw);
@@ -50,8 +50,8 @@ PinchStates statesOf(const PinchRun& run, const Vec3& p_WO, double yaw) {
   return states;
 }
 
-PngPicture draw(const Joint& joint, const Vec3& p_WO, double yaw,
-                std::vector<std::string> show = {"joints", "no-visual"}) {
+PngPicture drawJoint(const Joint& joint, const Vec3& p_WO, double yaw,
+                     std::vector<std::string> show = {"joints", "no-visual"}) {
   const std::string file = tempFile("joint.png");
   const PinchRun run = runWith(joint, file, show);
   EXPECT_EQ(drawOnce(run, statesOf(run, p_WO, yaw)).outcome, View::Screenshot::Outcome::kWritten);
@@ -80,7 +80,7 @@ double farthestAngle(const std::vector<Eigen::Vector2d>& points) {
 // The hand ends in a ball of 2 mm at 25 mm, whose farthest pixel may lie up to a pixel (0.55 mm) aside: 1.5 degrees.
 TEST(ShownJoints, TheHandOfAHingePointsAlongItsAngle) {
   for (const double angle : {-0.4, 0.0, 0.9}) {
-    const PngPicture picture = draw(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), swung(angle), angle);
+    const PngPicture picture = drawJoint(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), swung(angle), angle);
     const auto hand = pointsOf(picture, isHand);
     ASSERT_GT(hand.size(), 50u) << angle;
     EXPECT_NEAR(farthestAngle(hand), angle, 1.5 * std::numbers::pi / 180);
@@ -89,7 +89,7 @@ TEST(ShownJoints, TheHandOfAHingePointsAlongItsAngle) {
 
 // The stops are the parts of the frame that are farthest from the axis: at both limits, to the width of their rods.
 TEST(ShownJoints, TheArcOfAHingeEndsAtItsStops) {
-  const auto frame = pointsOf(draw(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), swung(0), 0), isFrame);
+  const auto frame = pointsOf(drawJoint(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), swung(0), 0), isFrame);
   ASSERT_GT(frame.size(), 100u);
   double reach = 0, low = 9, high = -9;
   for (const auto& p : frame) reach = std::max(reach, p.norm());
@@ -104,7 +104,8 @@ TEST(ShownJoints, TheArcOfAHingeEndsAtItsStops) {
 // To a pixel (0.6 mm), half the thickness of a stop (1.3 mm), and what its half height of 8 mm towards the eye at 0.8 m
 // adds (1 %).
 TEST(ShownJoints, ASliderShowsItsTravelToScale) {
-  const PngPicture picture = draw(cubeJoint(JointType::kSlider, Vec3::UnitX(), -0.05, 0.12), {0.07, 0, kHeight}, 0);
+  const PngPicture picture =
+      drawJoint(cubeJoint(JointType::kSlider, Vec3::UnitX(), -0.05, 0.12), {0.07, 0, kCubeHeight}, 0);
   double low = 9, high = -9, tick = 0;
   const auto frame = pointsOf(picture, isFrame), hand = pointsOf(picture, isHand);
   for (const auto& p : frame) low = std::min(low, p.x()), high = std::max(high, p.x());
@@ -118,8 +119,8 @@ TEST(ShownJoints, ASliderShowsItsTravelToScale) {
 TEST(ShownJoints, OnlyWhereAskedFor) {
   const Joint joint = cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2);
   for (const auto& show : {std::vector<std::string>{"no-visual"}, {"no-visual", "joints", "no-joints"}}) {
-    EXPECT_TRUE(pointsOf(draw(joint, swung(0), 0, show), isHand).empty());
-    EXPECT_TRUE(pointsOf(draw(joint, swung(0), 0, show), isFrame).empty());
+    EXPECT_TRUE(pointsOf(drawJoint(joint, swung(0), 0, show), isHand).empty());
+    EXPECT_TRUE(pointsOf(drawJoint(joint, swung(0), 0, show), isFrame).empty());
   }
 }
 

@@ -23,7 +23,7 @@ Scene door() {
 }
 
 /// A step of 5 ms to this pose of the door, turned about its hinge, tilted about x and moved [m].
-ObjectState step(double end, double turn, double tilt, const Vec3& moved) {
+ObjectState doorAt(double end, double turn, double tilt, const Vec3& moved) {
   const Quat q = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * Quat(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
   ObjectState state;
   state.time_begin = end - 0.005;
@@ -39,10 +39,10 @@ TEST(JointWatch, TakesTheWidestOpeningOfTheComparedWindow) {
   Evidence evidence;
   evidence.compared_from = 0.1, evidence.compared_to = 1;
   JointWatch watch(scene, evidence);
-  watch.observe(step(0.05, 0, 0.1, {0.01, 0, 0}));  // before
-  watch.observe(step(0.5, 1.2, 0, {0.003, 0, 0.004}));
-  watch.observe(step(0.6, -0.4, 0.02, {0, 1e-4, 0}));
-  watch.observe(step(1.5, 0, 0.1, {0.01, 0, 0}));  // after
+  watch.observe(doorAt(0.05, 0, 0.1, {0.01, 0, 0}));  // before
+  watch.observe(doorAt(0.5, 1.2, 0, {0.003, 0, 0.004}));
+  watch.observe(doorAt(0.6, -0.4, 0.02, {0, 1e-4, 0}));
+  watch.observe(doorAt(1.5, 0, 0.1, {0.01, 0, 0}));  // after
   watch.finish(evidence);
   EXPECT_NEAR(evidence.joint_gap.value(), 5e-3, 1e-12);
   EXPECT_NEAR(evidence.joint_tilt.value(), 0.02, 1e-9);
@@ -59,7 +59,7 @@ TEST(JointWatch, SaysNothingOfASceneWithoutJoints) {
   Evidence evidence;
   evidence.compared_to = 1;
   JointWatch watch(scene, evidence);
-  watch.observe(step(0.5, 0, 0.1, {0.01, 0, 0}));
+  watch.observe(doorAt(0.5, 0, 0.1, {0.01, 0, 0}));
   watch.finish(evidence);
   EXPECT_FALSE(evidence.joint_gap);
   EXPECT_FALSE(findMetric("joint_gap")->error(evidence, {}));
