@@ -44,7 +44,10 @@ void ShownJoints::make() {
 void ShownJoints::follow(const ViewFrame& frame) {
   if (scene_.joints.empty() || frame.X_WB.size() < scene_.bodies.size()) return;
   if (!motion_) make();
-  if (!(frame.time >= time_ && frame.time - time_ < kJump)) motion_->forgetTurns();
+  if (frame.joint_positions != nullptr)
+    motion_->goOnFrom(frame.joint_positions->of);
+  else if (!(frame.time >= time_ && frame.time - time_ < kJump))
+    motion_->goOnFrom();
   time_ = frame.time;
   motion_->follow([&](std::size_t body) { return frame.X_WB[body]; });
 }

@@ -19,7 +19,7 @@ class ShownJoints {
   ShownJoints(const Scene& scene, const BodyNodes& bodies, osg::Group& space, osg::MatrixTransform& labels,
               const Ink& ink);
   /// Call in every step while the joints are shown: angles then go on beyond half a turn. After a jump in time, and
-  /// when the joints are shown again, they begin within half a turn.
+  /// when the joints are shown again, they begin within half a turn of ViewFrame::joint_positions, without these of 0.
   void follow(const ViewFrame& frame);
   void show(bool shown, const ViewFrame& frame);
   /// Places the labels for the camera of the next frame.

@@ -51,8 +51,11 @@ JointMotion::JointMotion(const Scene& scene) : scene_(scene), states_(scene.join
   }
 }
 
-void JointMotion::forgetTurns() noexcept {
-  for (State& state : states_) state.position = {};
+void JointMotion::goOnFrom(const std::vector<double>& positions) noexcept {
+  std::size_t next = 0;
+  for (std::size_t j = 0; j < count(); ++j)
+    for (std::size_t i = 0; i < positionCount(joint(j)); ++i, ++next)
+      states_[j].position[i] = next < positions.size() ? positions[next] : 0;
 }
 
 void JointMotion::place(std::size_t j, const Pose& X_WB, const Pose& X_WA) noexcept {

@@ -39,8 +39,8 @@ class JointMotion {
       place(j, poseOfBody(one.body), one.to == Joint::kWorld ? Pose{} : poseOfBody(one.to));
     }
   }
-  /// Forgets turns: the next angles lie within half a turn. After a jump in time.
-  void forgetTurns() noexcept;
+  /// The next angles lie within half a turn of these positions, joint by joint; none: of 0. After a jump in time.
+  void goOnFrom(const std::vector<double>& positions = {}) noexcept;
 
   /// Position i of joint j [m, rad]; 0 in the start pose.
   double position(std::size_t j, std::size_t i) const noexcept { return states_[j].position[i]; }

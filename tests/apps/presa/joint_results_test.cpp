@@ -14,6 +14,7 @@
 #include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
 #include "tests/apps/presa/support.h"
+#include "tests/support/alloc_lock_guard.h"
 #include "tests/support/png_picture.h"
 
 namespace presa {
@@ -97,6 +98,30 @@ TEST(JointResults, ReportHasATableAndAPlotForEachUnit) {
   EXPECT_THAT(page, HasSubstr("Angles of the joints over time"));
   EXPECT_THAT(page, HasSubstr("Displacements of the joints over time"));
   EXPECT_THAT(page, HasSubstr("-50.0 mm"));
+}
+
+// The log is kept on the haptic thread; it has fewer samples than the run has steps.
+TEST(JointResults, LoggingNeitherAllocatesNorLocks) {
+  if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
+  Scene scene;
+  scene.bodies.resize(1);
+  for (const JointType type :
+       {JointType::kHinge, JointType::kUniversal, JointType::kPrismaticRotary, JointType::kBall}) {
+    Joint& joint = scene.joints.emplace_back();
+    joint.type = type;
+    joint.axes.resize(type == JointType::kBall ? 0 : type == JointType::kHinge ? 1 : 2);
+    if (type == JointType::kUniversal) joint.axes[1].dhat_B = Vec3::UnitX();
+  }
+  JointLog log(scene, 10, 2);
+  const RealTimeGuard guard;
+  for (int i = 0; i < 100; ++i) {
+    const Pose X_WB{Vec3::Zero(), Quat(Eigen::AngleAxisd(0.1 * i, Vec3::UnitZ()))};
+    log.add(kStep * i, kStep, [&](std::size_t) { return X_WB; });
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  EXPECT_EQ(log.times().size(), 10u);
+  EXPECT_EQ(log.times()[1], 2 * kStep);
+  EXPECT_NEAR(log.positions()[0].travel.end, 9.9, 1e-9);
 }
 
 // A recording tells the same from its poses, at every tick: turned by kSpeed t, fallen by g t^2 / 2. A step is straight,

@@ -78,9 +78,12 @@ TEST(JointMotion, AnglesGoOnBeyondHalfATurn) {
   };
   for (int i = 0; i < 11; ++i) go(step);
   for (int i = 0; i < 29; ++i) go(-step);
-  motion.forgetTurns();
+  motion.goOnFrom();
   followJoints(motion, moved(scene, Vec3::Zero(), turnAbout(angle, Vec3::UnitY())));
   EXPECT_NEAR(motion.position(0, 0), std::remainder(angle, 2 * kPi), 1e-9);
+  motion.goOnFrom({angle + 1});
+  followJoints(motion, moved(scene, Vec3::Zero(), turnAbout(angle, Vec3::UnitY())));
+  EXPECT_NEAR(motion.position(0, 0), angle, 1e-9);
 }
 
 TEST(JointMotion, ABallTellsItsAngleAndAFixedJointNothing) {
