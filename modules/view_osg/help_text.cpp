@@ -54,8 +54,8 @@ Lines partLines() {
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
           {"9  0", "sleeping bodies, coordinate frames"},
-          {"g  t  o", "plots of the last seconds, felt texture, offsets"},
-          {"j", "joints between bodies"}};
+          {"g  t", "plots of the last seconds, felt texture"},
+          {"o  j", "offsets of the fingers, joints"}};
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void ShownJoints::make() {
   motion_ = std::make_unique<JointMotion>(scene_);
   glyphs_ = std::make_unique<JointGlyphs>(scene_, *motion_, bodies_);
   space_.addChild(glyphs_->root());
-  labels_.addChild(texts_);
+  labels_.insertChild(0, texts_);  // below the help and all panels
   for (std::size_t j = 0; j < motion_->count(); ++j) {
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
     place->setDataVariance(osg::Object::DYNAMIC);
