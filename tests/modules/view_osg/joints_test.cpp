@@ -72,18 +72,21 @@ std::vector<Eigen::Vector2d> pointsOf(const PngPicture& picture, bool (*is)(cons
   return points;
 }
 
-double farthestAngle(const std::vector<Eigen::Vector2d>& points) {
-  const auto tip = std::ranges::max_element(points, {}, [](const Eigen::Vector2d& p) { return p.norm(); });
-  return std::atan2(tip->y(), tip->x());
+/// Direction of their middle.
+double headingOf(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Vector2d sum(0, 0);
+  for (const Eigen::Vector2d& p : points) sum += p;
+  return std::atan2(sum.y(), sum.x());
 }
 
-// The hand ends in a ball of 2 mm at 25 mm, whose farthest pixel may lie up to a pixel (0.55 mm) aside: 1.5 degrees.
+// The hand is symmetric about its direction, so the mean of its pixels lies on it: to a tenth of a pixel (0.06 mm) of
+// hundreds of pixels whose mean is 20 mm from the axis, 0.2 degrees; the light on its round shape shifts it by as much.
 TEST(ShownJoints, TheHandOfAHingePointsAlongItsAngle) {
   for (const double angle : {-0.4, 0.0, 0.9}) {
     const PngPicture picture = drawJoint(cubeJoint(JointType::kHinge, Vec3::UnitZ(), -0.5, 1.2), swung(angle), angle);
     const auto hand = pointsOf(picture, isHand);
     ASSERT_GT(hand.size(), 50u) << angle;
-    EXPECT_NEAR(farthestAngle(hand), angle, 1.5 * std::numbers::pi / 180);
+    EXPECT_NEAR(headingOf(hand), angle, 0.4 * std::numbers::pi / 180);
   }
 }
 
@@ -141,7 +144,8 @@ TEST(ShownJoints, CostNoNodeUntilTheyAreShown) {
   EXPECT_EQ(nodes(picture.hud().center()), labels + 1);
 }
 
-// A wheel turns about the middle of its arc: the hand moves inside of what stands still. 24 codes as in retained_test.
+// The hand moves inside of what stands still. Only pixels of the glyph count: the light, and with it the edge of a shadow,
+// may be placed differently. 24 codes as in retained_test.
 TEST(ShownJoints, AFilmEqualsPicturesDrawnAnew) {
   const auto film = [](const std::string& name, int first, int last) {
     const std::string folder = tempFile(name + std::to_string(first));
@@ -171,10 +175,11 @@ TEST(ShownJoints, AFilmEqualsPicturesDrawnAnew) {
     for (int y = 0; y < kept.height(); ++y)
       for (int x = 0; x < kept.width(); ++x) {
         const Color a = kept.at(x, y), b = anew.at(x, y);
-        different += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 24;
+        const bool glyph = isHand(a) || isHand(b) || isFrame(a) || isFrame(b);
+        different += glyph && std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 24;
       }
     EXPECT_LT(different, 20) << "frame " << frame;
-    EXPECT_NEAR(farthestAngle(pointsOf(kept, isHand)), 0.3 * frame, 0.06);
+    EXPECT_NEAR(headingOf(pointsOf(kept, isHand)), 0.3 * frame, 0.06);
   }
 }
 
