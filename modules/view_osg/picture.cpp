@@ -163,7 +163,6 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
     appearance.insert(appearance.end(), {static_cast<double>(finger.mode), shades});
   }
   if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
-  joints_.addAppearance(appearance);
   return watch_->update({frame.X_WB, *finger_casters_, others, appearance, kSeen * radius});
 }
 

@@ -116,12 +116,4 @@ void ShownJoints::seenFrom(const CameraPose& pose) {
   }
 }
 
-void ShownJoints::addAppearance(std::vector<double>& appearance) const {
-  constexpr double kSteps = 500;  // per radian: a hand of 50 mm moves by 0.1 mm
-  if (!shown_) return;
-  for (std::size_t j = 0; j < motion_->count(); ++j)
-    for (std::size_t i = 0; i < positionCount(motion_->joint(j)); ++i)
-      if (isAngle(motion_->joint(j), i)) appearance.push_back(std::round(kSteps * motion_->position(j, i)));
-}
-
 }  // namespace presa::view

@@ -24,8 +24,6 @@ class ShownJoints {
   void show(bool shown, const ViewFrame& frame);
   /// Places the labels for the camera of the next frame.
   void seenFrom(const CameraPose& pose);
-  /// Appends what turns inside the bounds of a glyph.
-  void addAppearance(std::vector<double>& appearance) const;
 
  private:
   struct JointLabel {
