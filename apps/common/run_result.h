@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/joint_log.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/device/phase_intent.h"
@@ -79,6 +80,7 @@ struct RunResult {
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
   const BoundedList<TraceSample>* trace = nullptr;  ///< null: none
+  const JointLog* joints = nullptr;                 ///< null: the scene has none
   std::vector<Fault> faults;
   std::vector<std::string> load_warnings;  ///< repaired meshes and the like, as printed ("a.xml:1:2: warning[W307]: …")
   std::vector<std::string> notes;          ///< stiffness bounds, raised damping, skipped parts, …

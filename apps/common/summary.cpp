@@ -9,6 +9,7 @@
 #include "apps/common/atomic_file.h"
 #include "apps/common/grasp_figures.h"
 #include "apps/common/grasp_strength.h"
+#include "apps/common/joint_words.h"
 #include "apps/common/losses.h"
 
 namespace presa {
@@ -102,6 +103,28 @@ Json objects(const RunResult& result) {
   return all;
 }
 
+// Displacements in metres, as all positions here.
+Json joints(const JointLog& log) {
+  Json all = Json::array();
+  for (const Joint& joint : log.scene().joints)
+    all.push_back({{"name", joint.name}, {"type", nameOf(joint.type)}, {"positions", Json::array()}});
+  for (const JointLog::Position& position : log.positions()) {
+    const Joint& joint = log.jointOf(position);
+    const bool angle = isAngle(joint, position.axis);
+    const double unit = angle ? kDegrees : 1;
+    const JointTravel& travel = position.travel;
+    const JointAxis axis = position.axis < joint.axes.size() ? joint.axes[position.axis] : JointAxis{};
+    all[position.joint]["positions"].push_back({{"unit", angle ? "deg" : "m"},
+                                                {"start", unit * travel.start},
+                                                {"min", unit * travel.min},
+                                                {"max", unit * travel.max},
+                                                {"end", unit * travel.end},
+                                                {"at_lower_s", axis.lower ? Json(travel.at_lower) : Json(nullptr)},
+                                                {"at_upper_s", axis.upper ? Json(travel.at_upper) : Json(nullptr)}});
+  }
+  return all;
+}
+
 Json turn(const GraspTurn& turn) {
   return {{"object_deg", turn.object * kDegrees},
           {"hand_deg", turn.hand * kDegrees},
@@ -176,6 +199,7 @@ std::string summaryJson(const RunResult& result) {
   json["contact_points"] = contactPoints(result);
   json["coverage_lost"] = {{"ticks", result.coverage_lost.count}, {"first_s", timeOrNull(result.coverage_lost.first)}};
   json["objects"] = objects(result);
+  if (result.joints != nullptr) json["joints"] = joints(*result.joints);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
   json["solver_fallbacks"] = result.solver_fallbacks;

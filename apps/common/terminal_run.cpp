@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/common/assembly_observer.h"
+#include "apps/common/joint_observer.h"
 #include "apps/common/live_observer.h"
 #include "apps/common/machine.h"
 #include "apps/common/pacer.h"
@@ -67,6 +68,19 @@ std::vector<RunResult::Phase> phasesOf(const Device& device) {
   return phases;
 }
 
+constexpr double kMaxJointSamples = 1'000'000;  // of all joints of a run, for plots
+
+/// As many samples of the joints as the trace has, of a run of any length.
+JointLog jointLogFor(const Scene& scene, double duration, double trace_rate) {
+  std::size_t positions = 1;
+  for (const Joint& joint : scene.joints) positions += positionCount(joint);
+  const double dynamics = scene.rates.dynamics, steps = duration * dynamics;
+  const double most = kMaxJointSamples / static_cast<double>(positions);
+  const double stride = std::max({1.0, std::round(dynamics / std::max(trace_rate, 1.0)), std::ceil(steps / most)});
+  const double samples = trace_rate > 0 && std::isfinite(steps) ? std::min(most, steps / stride + 2) : 0;
+  return {scene, static_cast<std::size_t>(samples), static_cast<std::size_t>(std::min(stride, 1e9))};
+}
+
 /// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
 void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
   RunOptions& options = loaded.options;
@@ -88,6 +102,8 @@ struct TerminalRun::Live {
   StatusLine line;
   std::optional<terminal::Keys> keys;   // present while a re-arm by key is possible
   std::atomic<std::int32_t> filled{0};  // filled places of the assembly
+  std::shared_ptr<const World> world;   // of the joints
+  std::optional<JointLog> joints;       // only in a scene with joints
   std::int64_t start_ns = 0;
   explicit Live(bool quiet) : line(quiet) {}
 };
@@ -123,6 +139,11 @@ std::vector<std::unique_ptr<Module>> TerminalRun::observers(const Loaded& loaded
   std::vector<std::unique_ptr<Module>> modules = std::move(settings_.more);
   live_->values.size(loaded.world->scene.devices.size());
   modules.push_back(std::make_unique<LiveObserver>(live_->values));
+  if (const Scene& scene = loaded.world->scene; !scene.joints.empty()) {
+    live_->world = loaded.world;
+    live_->joints.emplace(jointLogFor(scene, loaded.options.duration, settings_.trace_rate));
+    modules.push_back(std::make_unique<JointObserver>(*live_->joints));
+  }
   if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyObserver>(live_->filled));
   if (paced_) modules.push_back(std::make_unique<Pacer>(time_control_, view_, control_, while_held_));
   return modules;
@@ -305,6 +326,7 @@ void TerminalRun::finish() {
       result_.rates.push_back({group, run_->executor().rates().rate(group), &run_->executor().timing(group)});
   }
   takeMonitor(run_->session().monitor(), result_);
+  if (live_->joints) result_.joints = &*live_->joints;
   if (const auto& assembly = run_->world().scene.assembly)
     result_.assembly = {static_cast<int>(assembly->goals.size()), live_->filled.load(std::memory_order_relaxed)};
   if (Recorder* recorder = run_->session().recorder()) {

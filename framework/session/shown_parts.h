@@ -19,10 +19,11 @@ enum class ShownPart : std::size_t {
   kFrames,    ///< axes of world and bodies, x red, y green, z blue
   kPlots,     ///< force, penetration and haptic rate of the last seconds; key g
   kTexture,   ///< height of the felt surface around a touching finger, where a texture is felt; key t
-  kOffset     ///< of each finger from its HIP and from the touched object, as numbers; key o
+  kOffset,    ///< of each finger from its HIP and from the touched object, as numbers; key o
+  kJoints     ///< joints between bodies with their positions; key j
 };
-inline constexpr std::array<std::string_view, 13> kShownPartNames{"visual",  "haptic",  "physics", "patches",  "hips",
+inline constexpr std::array<std::string_view, 14> kShownPartNames{"visual",  "haptic",  "physics", "patches",  "hips",
                                                                   "proxies", "cones",   "forces",  "sleeping", "frames",
-                                                                  "plots",   "texture", "offset"};
+                                                                  "plots",   "texture", "offset",  "joints"};
 
 }  // namespace presa

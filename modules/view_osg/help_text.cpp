@@ -54,7 +54,8 @@ Lines partLines() {
           {"5  6", "HIPs, fingertips"},
           {"7  8", "friction cones, forces"},
           {"9  0", "sleeping bodies, coordinate frames"},
-          {"g  t  o", "plots of the last seconds, felt texture, offsets"}};
+          {"g  t", "plots of the last seconds, felt texture"},
+          {"o  j", "offsets of the fingers, joints"}};
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class Hud {
   /// Groups for additional cards: x = 0 at the left edge, at the right edge, and origin in the middle.
   osg::Group& left() { return *left_; }
   osg::Group& right() { return *right_; }
-  osg::Group& center() { return *center_; }
+  osg::MatrixTransform& center() { return *center_; }
   /// A group with its origin in the middle that stays when the figures are hidden.
   osg::Group& participantCenter() { return *participant_; }
   void showFigures(bool shown);

@@ -39,6 +39,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_),
+      joints_(world_->scene, bodies_, *space_, hud_.center(), inkOn(options.picture.background)),
       ink_(inkOn(options.picture.background)),
       panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
               parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots]),
@@ -210,6 +211,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   time_bar_.update(frame.time);
   plots_.update(parts[ShownPart::kPlots]);
   showOffsets(parts[ShownPart::kOffset], frame);
+  joints_.show(parts[ShownPart::kJoints], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius))

@@ -21,6 +21,7 @@
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
 #include "modules/view_osg/show_how.h"
+#include "modules/view_osg/shown_joints.h"
 #include "modules/view_osg/time_bar.h"
 #include "modules/view_osg/visit_screen.h"
 
@@ -44,6 +45,7 @@ class Picture {
   /// Collects data for the plots. Call in every step, drawn or not.
   void follow(const ViewFrame& frame, const GroupTimings& timings) {
     if (parts_[ShownPart::kPlots]) plots_.add(frame, timings);
+    if (parts_[ShownPart::kJoints]) joints_.follow(frame);
   }
   void show(const ViewFrame& frame, const GroupTimings& timings);
   /// What a participant sees from the next frame on; only in runs with RunOptions::participant.
@@ -68,7 +70,10 @@ class Picture {
   /// The vertical axis of a walk round what was built goes through it.
   Vec3 middleOfGoals() const;
   /// The camera of the next frame.
-  void seenFrom(const CameraPose& pose) { hud_.seenFrom(pose); }
+  void seenFrom(const CameraPose& pose) {
+    hud_.seenFrom(pose);
+    joints_.seenFrom(pose);
+  }
   /// Simplifies the picture for software rendering.
   void setQuick(bool quick);
   /// Size of the three-dimensional part [pixel].
@@ -100,6 +105,7 @@ class Picture {
   TimeBar time_bar_;
   Plots plots_;
   std::optional<OffsetPanel> offsets_;  // once it is shown
+  ShownJoints joints_;
   const Ink ink_;
   const bool panels_;       // something is drawn at the sides
   const bool whole_cones_;  // the camera keeps them in the picture

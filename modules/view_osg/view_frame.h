@@ -6,6 +6,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/finger_neighbourhood.h"
+#include "framework/scene/joints/joint_positions.h"
 
 namespace presa::view {
 
@@ -15,6 +16,7 @@ struct ViewFrame {
   std::vector<Pose> X_WB;                                ///< in the order of Scene::bodies
   std::vector<bool> asleep;                              ///< in the order of Scene::bodies
   const FingerNeighbourhoods* neighbourhoods = nullptr;  ///< value of the port; null: not connected
+  const JointPositions* joint_positions = nullptr;       ///< value of the port; null: not connected
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;

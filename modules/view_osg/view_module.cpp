@@ -132,6 +132,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.contacts = contact_exchange_.value();
   frame_.forces = force_command_.value();
   if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
+  if (joint_positions_.connected()) frame_.joint_positions = &joint_positions_.value();
   if (guidance_.connected()) frame_.guidance = guidance_->now;
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();

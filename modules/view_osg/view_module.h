@@ -68,6 +68,7 @@ class ViewModule final : public View {
   std::optional<PointerControl> pointer_;
   TimeControl* time_ = nullptr;
   double length_ = 0;  ///< length of the recording [s]; 0: a run
+  In<JointPositions> joint_positions_{*this, kJointPositionsPort, In<JointPositions>::Optional{}};
   In<GuideState> guidance_{*this, "guidance", In<GuideState>::Optional{}};
 
   ViewFrame frame_;

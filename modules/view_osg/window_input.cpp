@@ -154,6 +154,10 @@ bool WindowInput::key(const Event& event) {
       if (!controls_.visitor) break;
       ++inputs.onwards;
       return true;
+    case 'j':
+      if (controls_.visitor) return true;
+      picture_.parts().toggle(ShownPart::kJoints);
+      return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
       return true;

@@ -144,7 +144,7 @@ std::string recordingPage(const std::string& file, const RecordedSamples& sample
     html +=
         "<p class=\"caption\">Commanded: after the output stage, as sent to the device. Rendered: before it, thin. "
         "Every haptic tick is drawn; a curve is interrupted where no tick ran.</p>\n";
-  return html + page::tail();
+  return html + part.end + page::tail();
 }
 
 }  // namespace presa

@@ -9,9 +9,9 @@ namespace presa {
 /// Times at which status bits of the output stages changed, a line each: "12.345 s: device lost, fading".
 std::vector<std::string> statusTimeline(const RecordedSamples& samples);
 
-/// What a program adds to the page: rules of its style sheet, and HTML that follows the heading.
+/// What a program adds to the page: rules of its style sheet, HTML that follows the heading, and HTML at the end.
 struct PagePart {
-  std::string style, html;
+  std::string style, html, end = {};
 };
 
 /// Page of a recording: its faults, and each finger's force, penetration, speed and position over time. `bodies`: names

@@ -133,6 +133,13 @@ std::optional<Way> overlapOf(const Placed& a, const Placed& b, double tolerance)
   return best;
 }
 
+/// Whether a joint keeps two bodies from colliding with each other.
+bool joined(const Scene& scene, std::size_t a, std::size_t b) {
+  return std::ranges::any_of(scene.joints, [&](const Joint& joint) {
+    return !joint.collide && ((joint.body == a && joint.to == b) || (joint.body == b && joint.to == a));
+  });
+}
+
 }  // namespace
 
 std::vector<Overlap> overlapsOf(const World& world, double tolerance) {
@@ -152,7 +159,7 @@ std::vector<Overlap> overlapsOf(const World& world, double tolerance) {
       const Entry &a = entries[i], &b = entries[j];
       if (b.placed.box.low.x() > a.placed.box.high.x()) break;
       if (a.body == b.body || (bodies[a.body].fixed && bodies[b.body].fixed)) continue;
-      if (!meet(a.placed.box, b.placed.box, tolerance)) continue;
+      if (!meet(a.placed.box, b.placed.box, tolerance) || joined(world.scene, a.body, b.body)) continue;
       const bool in_order = a.body < b.body;
       const Entry &first = in_order ? a : b, &second = in_order ? b : a;
       const auto way = overlapOf(first.placed, second.placed, tolerance);

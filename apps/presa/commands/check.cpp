@@ -41,8 +41,10 @@ void printText(const Diagnostics& diagnostics, const CheckArguments& arguments) 
 std::string sizesOf(const World& world) {
   std::size_t triangles = 0;
   for (const BodyMeshes& meshes : world.meshes) triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
-  return terminal::format("%zu bodies, %zu materials, %zu devices, %zu haptic triangles", world.scene.bodies.size(),
-                          world.scene.materials.size(), world.scene.devices.size(), triangles);
+  const std::size_t joints = world.scene.joints.size();
+  const std::string jointed = joints == 0 ? "" : ' ' + std::to_string(joints) + (joints == 1 ? " joint," : " joints,");
+  return terminal::format("%zu bodies,%s %zu materials, %zu devices, %zu haptic triangles", world.scene.bodies.size(),
+                          jointed.c_str(), world.scene.materials.size(), world.scene.devices.size(), triangles);
 }
 
 Checked checkScene(const std::string& file, const CheckArguments& arguments) {

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/joint_words.h"
 #include "apps/common/losses.h"
 #include "apps/common/options/view_options.h"
 #include "apps/common/report/recording_page.h"
@@ -11,6 +12,7 @@
 #include "apps/presa/replay_page/three_js.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/record/record_plugin.h"
+#include "framework/scene/joints/joint_words.h"
 #include "framework/session/load_world.h"
 #include "framework/session/replay.h"
 
@@ -97,6 +99,18 @@ void printLosses(const RecordedRun& run) {
   for (const std::string& loss : lossesOf(result)) std::printf("  warning: %s\n", loss.c_str());
 }
 
+/// Where the joints were, from the recorded poses; nothing in a scene without joints.
+void printJoints(const RecordedSamples& samples, const Scene& scene) {
+  const JointLog log = jointLogOf(samples, scene);
+  for (const JointLog::Position& position : log.positions()) {
+    const Joint& joint = log.jointOf(position);
+    const auto text = [&](double value) { return positionText(joint, position.axis, value); };
+    std::printf("  joint %s: %s at the end, %s to %s\n", printable(positionName(joint, position.axis)).c_str(),
+                text(position.travel.end).c_str(), text(position.travel.min).c_str(),
+                text(position.travel.max).c_str());
+  }
+}
+
 /// A recording of the seconds around a fault: it begins in the middle of a run and can be shown but not replayed.
 int showFlight(const std::string& file, const RecordedSamples& samples) {
   std::printf("%s: %.3f to %.3f s of scene %s, around a fault\n", file.c_str(), samples.time.front(),
@@ -150,6 +164,8 @@ int runReplay(ReplayArguments arguments) {
   std::printf("replayed %llu ticks, state hash 0x%016llx\n", static_cast<unsigned long long>(result.ticks),
               static_cast<unsigned long long>(run.stateHash()));
   printLosses(run);
+  const Scene& scene = run.world()->scene;
+  if (!scene.joints.empty()) printJoints(recordPlugin().samples(arguments.file), scene);
   return arguments.verify ? printVerdict(result) : kExitOk;
 }
 

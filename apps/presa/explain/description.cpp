@@ -5,6 +5,7 @@
 
 #include "framework/core/schedule/rates.h"
 #include "framework/scene/decompositions.h"
+#include "framework/scene/joints/joint_words.h"
 
 namespace presa {
 namespace {
@@ -92,6 +93,8 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   for (const PlannedDevice& device : session.plan().devices)
     out["devices"].push_back({{"role", device.role}, {"driver", device.driver}, {"frames", device.frames}});
   for (const DecomposedMesh& mesh : decompositionsOf(*session.world())) out["decomposed"].push_back(textOf(mesh));
+  for (const Joint& joint : session.world()->scene.joints)
+    out["joints"].push_back({{"name", joint.name}, {"what", describeJoint(session.world()->scene, joint)}});
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},
                                 {"plugin", library.starts_with("presa_")},

@@ -14,6 +14,7 @@ std::set<std::string> mappedLibraries();
 /// Describes the session: its parts, the reasons for them, and the parts left out:
 ///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage;
 ///   connections[] from to value across_rates [when_old old_after_s]; devices[] role driver; left_out[] what why;
+///   joints[] name what, only in a scene with joints;
 ///   libraries[] name plugin needed_by ("the program": one of `before`; "the scene": loaded for it).
 nlohmann::json describeSession(Session& session, const std::set<std::string>& before);
 

@@ -96,6 +96,9 @@ std::string explainText(const json& run) {
   }
   if (!run["decomposed"].empty()) out += "\nMeshes cut into convex pieces\n";
   for (const json& mesh : run["decomposed"]) out += "  " + text(mesh) + '\n';
+  if (run.contains("joints")) out += "\nJoints\n";
+  for (const json& joint : run.value("joints", json::array()))
+    out += "  " + padded(text(joint["name"]), 22) + text(joint["what"]) + '\n';
   out += "\nValues that cross threads\n";
   crossings(out, run);
   out += "\nLeft out\n";

@@ -4,12 +4,14 @@
 #include <cstdio>
 
 #include "apps/common/exit_status.h"
+#include "apps/common/joint_log.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/presa/playback/recorded_moment.h"
 #include "framework/assembly/guide_module.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/scene/joints/joint_positions.h"
 #include "framework/session/session.h"
 
 namespace presa {
@@ -31,6 +33,25 @@ class RecordedSource final : public Module {
   Out<ForceCommand> command_{*this, "force_command"};
 };
 
+/// Writes the positions of the joints with the turns that they have made until then. Runs as RecordedSource.
+class RecordedJoints final : public Module {
+ public:
+  RecordedJoints(const RecordedSamples& samples, const Scene& scene)
+      : Module("recorded_joints", RateGroup::kView), log_(jointLogOf(samples, scene)) {
+    positions_.value.of.resize(log_.positions().size());
+  }
+  void step(const Tick& tick) noexcept override {
+    const std::vector<double>& times = log_.times();
+    const auto later = std::ranges::upper_bound(times, tick.time) - times.begin();
+    const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, later - 1));
+    for (std::size_t p = 0; p < log_.positions().size(); ++p) positions_.value.of[p] = log_.positions()[p].samples[row];
+  }
+
+ private:
+  const JointLog log_;
+  Out<JointPositions> positions_{*this, kJointPositionsPort};
+};
+
 class Player {
  public:
   Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, const RunOptions& options,
@@ -39,6 +60,7 @@ class Player {
     time_control_.speed = speed;
     GraphBuilder builder;
     builder.add(std::make_unique<RecordedSource>(moment_));
+    if (!world->scene.joints.empty()) builder.add(std::make_unique<RecordedJoints>(samples, world->scene));
     if (world->scene.assembly) builder.add(std::make_unique<GuideModule>(world));
     auto view = makeView(world, options);
     view_ = view.get();

@@ -6,6 +6,7 @@
 #include "apps/common/number_text.h"
 #include "apps/common/output_place.h"
 #include "apps/common/report/fault_events.h"
+#include "apps/common/report/joint_section.h"
 #include "apps/common/report/recording_page.h"
 #include "apps/presa/replay_page/keyframes.h"
 #include "apps/presa/replay_page/resources.h"
@@ -19,6 +20,8 @@ namespace presa::replay_page {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kTicksApart = 20;  // without a tick for longer, the loop stood still
 
 struct Scenery {
   std::shared_ptr<const World> world;  ///< null: the scene cannot be loaded again
@@ -103,6 +106,12 @@ json dataOf(const Recording& recording, const RecordedSamples& samples, const Sc
   return data;
 }
 
+std::string jointsOf(const RecordedSamples& samples, const Scenery& scenery) {
+  if (scenery.world == nullptr || scenery.world->scene.joints.empty()) return {};
+  const JointLog log = jointLogOf(samples, scenery.world->scene);
+  return html::jointSection(&log, kTicksApart * samples.haptic_period);
+}
+
 /// No text of a recording ends the data block.
 std::string blockOf(const json& data) {
   std::string text = data.dump(-1, ' ', false, json::error_handler_t::replace), safe;
@@ -130,7 +139,7 @@ std::string page(const Recording& recording, const RecordedSamples& samples, con
   const std::string data = blockOf(dataOf(recording, samples, scenery));
   const bool drawn = scenery.world != nullptr;
   return recordingPage(recording.file, samples, bodyNames(recording.scene_xml),
-                       {style, markup + data + (drawn ? three_js : "") + scripts});
+                       {style, markup + data + (drawn ? three_js : "") + scripts, jointsOf(samples, scenery)});
 }
 
 }  // namespace presa::replay_page

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "apps/common/joint_words.h"
 #include "apps/presa/replay_page/packed.h"
 
 namespace presa::replay_page {
@@ -14,7 +15,7 @@ namespace {
 using nlohmann::json;
 using Values = std::vector<double>;
 
-constexpr std::size_t kFewestBins = 2000, kMaxHeights = 4;
+constexpr std::size_t kFewestBins = 2000, kMaxHeights = 4, kMaxJoints = 6;
 constexpr double kBytesOfBin = 4.0 * 4 / 3;  // min and max, as base64
 
 struct Curve {
@@ -110,6 +111,24 @@ Values millimetres(Values values) {
   return values;
 }
 
+/// Positions of the joints, a panel for each unit.
+std::vector<Panel> jointPanels(const RecordedSamples& samples, const World* world) {
+  std::vector<Panel> panels;
+  if (world == nullptr || world->scene.joints.empty()) return panels;
+  const JointLog log = jointLogOf(samples, world->scene);
+  for (const bool angles : {true, false}) {
+    Panel panel{angles ? "Joint angle" : "Joint displacement", angles ? "deg" : "mm", "", {}};
+    for (const JointLog::Position* position : mostMoved(log, angles, kMaxJoints)) {
+      const Joint& joint = log.jointOf(*position);
+      Values values = position->samples;
+      for (double& value : values) value *= unitOf(joint, position->axis).factor;
+      panel.curves.push_back({positionName(joint, position->axis), "line", panel.curves.size(), std::move(values)});
+    }
+    if (!panel.curves.empty()) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
 std::vector<Panel> panelsOf(const RecordedSamples& samples, const World* world,
                             const std::vector<std::uint8_t>& changed) {
   Panel normal{"Normal force", "N", "rendered, before the output stage", {}},
@@ -130,6 +149,7 @@ std::vector<Panel> panelsOf(const RecordedSamples& samples, const World* world,
   std::vector<Panel> panels;
   for (Panel* panel : {&normal, &tangential, &grip, &height})
     if (!panel->curves.empty()) panels.push_back(std::move(*panel));
+  for (Panel& panel : jointPanels(samples, world)) panels.push_back(std::move(panel));
   return panels;
 }
 

@@ -12,7 +12,7 @@ namespace presa::replay_page {
 /// [{name, style, color, low, high}]}], states: [{name, seen}]}. Panels: normal force, tangential force with its limit
 /// (static friction times normal force), grip (what two sides of a body both take: half of the amount by which the sum
 /// of the commanded normal forces exceeds their resultant), height of the bodies that were touched, else of those that
-/// move. At most kMaxSignalBytes of base64 whatever the length. `surfaces_changed`: as Recording; may be empty.
+/// move, joint angle and joint displacement (of the six positions that changed most). At most kMaxSignalBytes of base64 whatever the length. `surfaces_changed`: as Recording; may be empty.
 /// `world`: null when the scene cannot be loaded; then no limit is known.
 inline constexpr std::size_t kMaxSignalBytes = 1'400'000;
 nlohmann::json signalsOf(const RecordedSamples& samples, const World* world,

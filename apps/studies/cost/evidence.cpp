@@ -78,6 +78,8 @@ nlohmann::json toJson(const Evidence& e) {
   put(json, "penetration_max_m", e.penetration_max);
   put(json, "rest_energy_J", e.rest_energy);
   put(json, "rest_drift_m", e.rest_drift);
+  put(json, "joint_gap_m", e.joint_gap);
+  put(json, "joint_tilt_rad", e.joint_tilt);
   json["seconds"] = e.seconds;
   return json;
 }
@@ -100,6 +102,8 @@ Evidence evidenceFrom(const nlohmann::json& json) {
   e.penetration_max = optionalNumber(json, "penetration_max_m");
   e.rest_energy = optionalNumber(json, "rest_energy_J");
   e.rest_drift = optionalNumber(json, "rest_drift_m");
+  e.joint_gap = optionalNumber(json, "joint_gap_m");
+  e.joint_tilt = optionalNumber(json, "joint_tilt_rad");
   e.seconds = json.at("seconds");
   return e;
 }

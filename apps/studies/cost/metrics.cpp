@@ -238,6 +238,12 @@ const std::vector<Metric>& ownMetrics() {
       {"rest_drift", "Drift at rest", "mm",
        "largest displacement of any body during the steady window; for scenes without fingers",
        [](const Evidence& s, const Evidence&) { return scaled(s.rest_drift, 1e3); }, true, none},
+      {"joint_gap", "Opening of joints, distance", "mm",
+       "largest distance by which any joint is open in the directions that it locks; for scenes with joints",
+       [](const Evidence& s, const Evidence&) { return scaled(s.joint_gap, 1e3); }, true, none},
+      {"joint_tilt", "Opening of joints, angle", "deg",
+       "largest angle by which any joint is open in the directions that it locks; for scenes with joints",
+       [](const Evidence& s, const Evidence&) { return scaled(s.joint_tilt, 180 / M_PI); }, true, none},
       {"force_step", "Force step at dynamics boundaries", "N",
        "bend of the normal force (second difference) at ticks that bring a new object state; RMS in the steady window, "
        "worst finger",

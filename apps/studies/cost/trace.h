@@ -52,6 +52,7 @@ struct Evidence {
   double seconds = 0;                                  ///< wall time of the watched run [s]
   std::uint64_t hash = 0;
   Trace trace;
+  std::optional<double> joint_gap, joint_tilt;  ///< opening of the widest joint [m], [rad]
 };
 
 }  // namespace presa::cost

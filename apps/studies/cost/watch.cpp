@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "apps/studies/cost/joint_watch.h"
 #include "apps/studies/cost/measure.h"
 #include "apps/studies/cost/rest_watch.h"
 #include "apps/studies/cost/ripple.h"
@@ -43,6 +44,7 @@ class Watcher {
     evidence_.trace.fingers = world_.scene.devices.size();
     evidence_.trace.bodies = free_.size();
     rest_.emplace(world_, evidence_);
+    joints_.emplace(world_.scene, evidence_);
     ripples_.assign(world_.scene.devices.size(),
                     Ripple(evidence_.compared_from, evidence_.compared_to, rates_.rate(RateGroup::kDynamics)));
   }
@@ -52,6 +54,7 @@ class Watcher {
     const bool boundary = sample.objects != nullptr && sample.objects_version != version_;
     version_ = sample.objects_version;
     if (boundary) rest_->observe(*sample.objects);
+    if (boundary) joints_->observe(*sample.objects);
     for (std::size_t f = 0; f < ripples_.size(); ++f) {
       const FingerContact& contact = sample.contact.fingers[f];
       ripples_[f].add(sample.tick.time, contact.f_H_W, contact.mode != ContactMode::kNone, boundary);
@@ -71,6 +74,7 @@ class Watcher {
     }
     const bool hears = rates_.divisor(RateGroup::kDynamics) > 2;  // otherwise the haptic rate is too low for the hum
     rest_->finish(evidence_);
+    joints_->finish(evidence_);
     for (const Ripple& ripple : ripples_) {
       if (const auto step = ripple.step()) evidence_.force_step = std::max(evidence_.force_step.value_or(0), *step);
       const auto hum = ripple.hum();
@@ -146,6 +150,7 @@ class Watcher {
   EnergyLedger ledger_{std::make_shared<const World>(world_)};
   std::vector<std::size_t> free_;
   std::optional<RestWatch> rest_;
+  std::optional<JointWatch> joints_;
   std::vector<Ripple> ripples_;
   std::uint64_t version_ = 0;
   bool finite_ = true;

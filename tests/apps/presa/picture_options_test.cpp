@@ -14,7 +14,7 @@ using test::presa;
 using test::scratch;
 using test::source;
 
-const std::string kCube = source("config/scenes/cube.xml");
+const std::string kShownCube = source("config/scenes/cube.xml");
 
 /// Width and height in the head of a PNG, and its colour type (6: with alpha).
 struct PngHead {
@@ -59,7 +59,7 @@ TEST(PictureOf, RefusesBackgroundsThatCannotBeDrawn) {
 TEST(PictureOptions, AreRefusedBeforeAnythingRuns) {
   const std::string picture = scratch("refused.png");
   const std::string bad = " --camera 1,2 --picture-size 10x10 --screenshot " + picture;
-  for (const std::string& command : {"run " + kCube + " --lockstep", std::string("replay none.h5"),
+  for (const std::string& command : {"run " + kShownCube + " --lockstep", std::string("replay none.h5"),
                                      std::string("view --join"), std::string("temple")}) {
     const auto outcome = presa(command + bad);
     EXPECT_EQ(outcome.status, 2) << command;
@@ -67,8 +67,8 @@ TEST(PictureOptions, AreRefusedBeforeAnythingRuns) {
     EXPECT_NE(outcome.err.find("--picture-size: error[E707]: "), std::string::npos) << command << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(picture));
   }
-  EXPECT_NE(presa("run " + kCube + " --hud some").status, 0);
-  EXPECT_NE(presa("run " + kCube + " --background black").status, 0);
+  EXPECT_NE(presa("run " + kShownCube + " --hud some").status, 0);
+  EXPECT_NE(presa("run " + kShownCube + " --background black").status, 0);
 }
 
 // A run and the replay of its recording draw the same still from the same camera: the moment is the same to the bit.
@@ -77,7 +77,7 @@ TEST(PictureOptions, RunAndReplayTakeTheSame) {
   const std::string same =
       " --view offscreen --camera iso --picture-size 320x200 --hud minimal --legend --background transparent "
       "--screenshot ";
-  const auto run = presa("run " + kCube + " --lockstep --for 0.3 --quiet --record " + record + same + first);
+  const auto run = presa("run " + kShownCube + " --lockstep --for 0.3 --quiet --record " + record + same + first);
   ASSERT_EQ(run.status, 0) << run.err;
   const auto replay = presa("replay " + record + same + second);
   ASSERT_EQ(replay.status, 0) << replay.err;
