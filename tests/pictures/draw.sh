@@ -15,7 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
-    scene_pages) size=1770,1000 ;;      # 24 pages, 6 beside each other
+    scene_pages) size=1770,1250 ;;      # 30 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
@@ -29,6 +29,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
   local programs=$1 out=$2 name=$3
   local args=("${@:4}")
   case $name in
+    balance) args+=(--screenshot-at 12) ;; # the beam has levelled
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
     sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
   esac
