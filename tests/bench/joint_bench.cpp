@@ -38,7 +38,7 @@ std::shared_ptr<const World> hingedWorld(bool chain) {
     joint.body = static_cast<std::size_t>(i);
     if (chain && i > 0) joint.to = joint.body - 1;
     joint.p_BJ = {-kLength / 2, 0, 0};
-    joint.axes.push_back({.dhat_B = Vec3::UnitY()});
+    joint.axes.emplace_back().dhat_B = Vec3::UnitY();
     world->scene.joints.push_back(joint);
   }
   return world;

@@ -27,7 +27,7 @@ constexpr int kSearchSteps = 20;
 constexpr int kAims = 20;         // corrections of the goals of joints between two minimisations
 constexpr double kAimed = 1e-7;   // last of them [m/s, rad/s]
 constexpr double kFree = 4;       // (h omega)^2 of a turn up to which a step follows it
-constexpr double kShrinks = 0.5;  // each in relation to the one before
+constexpr double kShrinks = 0.8;  // each in relation to the one before
 constexpr double kTurned = 1e-6;  // the same along the directions at the end [m/s, rad/s]
 constexpr int kTurns = 20;        // minimisations for that
 

@@ -80,7 +80,7 @@ const JointSlip kJointSlips[] = {
     {"NegativeFriction", 117, "friction=\"0.1\"", "@friction=\"-1\"", "0"},
 };
 INSTANTIATE_TEST_SUITE_P(Joints, OneJointSlip, testing::ValuesIn(kJointSlips),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& param) { return std::string(param.param.name); });
 
 /// A rod between two fixed posts, each end on a hinge.
 std::string rodOnTwoHinges(const std::string& second_axis) {
@@ -114,7 +114,7 @@ TEST(JointLoop, OfTheEnginesOwnSolverLacksSprings) {
 TEST(JointPosition, IsTheMotionAgainstTheOtherBody) {
   Joint joint;
   joint.p_BJ = {0.1, 0.2, 0};
-  joint.axes.push_back({.dhat_B = Vec3::UnitZ()});
+  joint.axes.emplace_back();
   const Pose X_WB{{1, 2, 3}, Quat(Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized()))};
   const Pose X_WA{{-1, 0, 2}, Quat(Eigen::AngleAxisd(-1, Vec3(0, 2, 1).normalized()))};
   const JointFrames frames = framesOf(joint, X_WB, X_WA);

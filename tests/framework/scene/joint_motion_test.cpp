@@ -58,7 +58,9 @@ TEST(JointMotion, PositionsAreWhatThePartWasMovedBy) {
     followJoints(motion, moved(scene, slides * axis, turnAbout(turns, axis)));
     const std::size_t last = positionCount(scene.joints[0]) - 1;
     EXPECT_NEAR(motion.position(0, last), type == JointType::kSlider ? slides : turns, 1e-12);
-    if (last == 1) EXPECT_NEAR(motion.position(0, 0), slides, 1e-12);
+    if (last == 1) {
+      EXPECT_NEAR(motion.position(0, 0), slides, 1e-12);
+    }
     const JointOpening opening = openingOf(scene.joints[0], motion.pose(0));
     EXPECT_NEAR(opening.distance, 0, 1e-12);
     EXPECT_NEAR(opening.angle, 0, 1e-9);

@@ -130,7 +130,9 @@ TEST(Joint, FrictionOfASliderIsCoulombs) {
     runner.run(1);
     const double a = std::max(0.0, kGravity * std::sin(0.5) - friction / 0.4);
     EXPECT_NEAR(runner[0].v_WB.dot(along), a, 1e-6);
-    if (a == 0) EXPECT_LT(runner[0].X_WB_end.p.norm(), 1e-8);
+    if (a == 0) {
+      EXPECT_LT(runner[0].X_WB_end.p.norm(), 1e-8);
+    }
   }
 }
 
@@ -226,7 +228,7 @@ TEST(Joint, FreePairKeepsItsMomenta) {
     runner.run(10);
     const auto [p_end, L_end] = momenta();
     EXPECT_LT((p_end - p).norm(), 1e-9);
-    EXPECT_LT((L_end - L).norm(), 1e-9);
+    EXPECT_LT((L_end - L).norm(), 1e-9) << nameOf(type);
   }
 }
 
