@@ -30,6 +30,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
   local args=("${@:4}")
   case $name in
     balance) args+=(--screenshot-at 12) ;; # the beam has levelled
+    chain) args+=(--camera "0.35,-0.5,0.5:0,0,0.36") ;; # between the posts
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
     sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
   esac
