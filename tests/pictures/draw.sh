@@ -29,8 +29,8 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
   local programs=$1 out=$2 name=$3
   local args=("${@:4}")
   case $name in
-    balance) args+=(--screenshot-at 12) ;; # the beam has levelled
-    chain) args+=(--camera "0.35,-0.5,0.5:0,0,0.36") ;; # between the posts
+    balance) args+=(--screenshot-at 13) ;; # the beam has levelled
+    chain) args+=(--camera "0.45,-0.65,0.55:0,0,0.4") ;; # between the posts
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
     sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
   esac

@@ -74,14 +74,29 @@ std::set<std::string> noNumbers(const std::string& text) {
   return found;
 }
 
-/// The titles of the sections that a scene's report has: no finger, no plot of fingers; no free body, no table of them.
-std::vector<std::string> expectedSections(std::size_t fingers, bool free) {
+/// The titles of the sections that a scene's report has: no finger, no plot of fingers; no free body,
+/// no table of them; no joint, no plot of joints.
+std::vector<std::string> expectedSections(const Scene& scene) {
+  const std::size_t fingers = scene.devices.size();
+  const bool free = std::ranges::any_of(scene.bodies, [](const Body& body) { return !body.fixed; });
+  const bool apart = scene.name == "pliers";  // each finger presses a handle of its own: no body is held by two
   std::vector<std::string> all;
-  if (fingers >= 2 && free) all.push_back("Grasp");
+  if (fingers >= 2 && free && !apart) all.push_back("Grasp");
   if (fingers > 0) all.insert(all.end(), {"Position, grip force and contact state", "Friction", "Contact points"});
   if (free) all.push_back("Objects");
+  if (!scene.joints.empty()) all.push_back("Joints");
   all.insert(all.end(), {"Rates", "Faults and notes", "Provenance"});
   return all;
+}
+
+/// One plot of joints for each unit of their positions.
+std::size_t jointPlots(const Scene& scene) {
+  std::set<bool> turning;
+  for (const Joint& joint : scene.joints) {
+    if (joint.type == JointType::kBall) turning.insert(true);
+    for (const JointAxis& axis : joint.axes) turning.insert(axis.turns);
+  }
+  return turning.size();
 }
 
 class ScenePage : public testing::TestWithParam<std::string> {};
@@ -91,18 +106,18 @@ TEST_P(ScenePage, HasSectionsAndPlotsThatHoldSomething) {
   const Loaded loaded = loadWorld({source("config/scenes/" + GetParam() + ".xml"), "", {}}, {}, diagnostics);
   const Scene& scene = loaded.world->scene;
   const std::size_t fingers = scene.devices.size();
-  const bool free = std::ranges::any_of(scene.bodies, [](const Body& body) { return !body.fixed; });
   const std::string page = reportOf(GetParam());
 
-  EXPECT_EQ(between(page, "<h2>", "</h2>"), expectedSections(fingers, free));
+  EXPECT_EQ(between(page, "<h2>", "</h2>"), expectedSections(scene));
   for (const std::string& section : between(page, "<h2>", "<h2>"))
     EXPECT_TRUE(holdsSomething(section.substr(section.find("</h2>")))) << section.substr(0, section.find("</h2>"));
   EXPECT_EQ(between(page, "<h1>", "</h1>"), std::vector<std::string>{scene.name});
   EXPECT_EQ(noNumbers(page), std::set<std::string>{});
 
   const std::vector<std::string> plots = between(page, "<svg", "</svg>");
-  EXPECT_EQ(plots.size(), 2 * fingers) << "over time, and of friction";
-  EXPECT_EQ(between(page, "download=\"", "\"").size(), 4 * fingers) << "SVG and CSV of each";
+  const std::size_t expected = 2 * fingers + jointPlots(scene);
+  EXPECT_EQ(plots.size(), expected) << "over time, of friction, and of joints";
+  EXPECT_EQ(between(page, "download=\"", "\"").size(), 2 * expected) << "SVG and CSV of each";
   for (const std::string& plot : plots) {
     const std::vector<std::string> curves = between(plot, "<path class=\"", ">");
     EXPECT_FALSE(curves.empty()) << plot.substr(0, 300);

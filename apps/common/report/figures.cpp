@@ -153,6 +153,18 @@ svg::TimeFigure pathFigure(const RunResult& result, const std::optional<GraspFig
   return figure;
 }
 
+/// What the contact point touched most, if it is an object; without a grasp each finger may touch another one.
+static const RunResult::Object* touchedMost(const RunResult& result, std::size_t contact_point) {
+  const auto samples = [&](const RunResult::Object& object) {
+    return std::ranges::count_if(*result.trace, [&](const TraceSample& sample) {
+      const FingerContact& contact = sample.fingers[contact_point];
+      return contact.mode != ContactMode::kNone && contact.body == object.body;
+    });
+  };
+  const auto most = std::ranges::max_element(result.objects, {}, samples);
+  return most == result.objects.end() || samples(*most) == 0 ? nullptr : &*most;
+}
+
 svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<GraspFigures>& grasp,
                                   std::size_t contact_point) {
   const RunResult::ContactPoint& point = result.contact_points[contact_point];
@@ -161,7 +173,7 @@ svg::ScatterFigure frictionFigure(const RunResult& result, const std::optional<G
   figure.x_label = "normal force [N]";
   figure.y_label = "tangential force [N]";
   svg::Cloud stick{"stick", "stick", {}}, slip{"slip", "slip", {}};
-  const RunResult::Object* object = drawnObject(result, grasp);
+  const RunResult::Object* object = grasp ? drawnObject(result, grasp) : touchedMost(result, contact_point);
   for (const TraceSample& sample : *result.trace) {
     const FingerContact& contact = sample.fingers[contact_point];
     if (result.stopped_at >= 0 && sample.time >= result.stopped_at) break;

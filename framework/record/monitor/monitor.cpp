@@ -57,8 +57,8 @@ struct Monitor::Impl {
       objects[i].start = objects[i].highest = objects[i].final = bodies[i].X_WB.p;
       if (bodies[i].fixed) continue;
       free.push_back(i);
-      if (traced.size() < TraceSample{}.bodies.size()) traced.push_back(static_cast<std::int32_t>(i));
     }
+    traceWhatIsLoose();
     moving.reserve(free.size());
     grasped.reserve(free.size());
     for (auto& list : slip_onsets) list.reserve(kMaxSlipOnsets);
@@ -73,6 +73,17 @@ struct Monitor::Impl {
       sample->ranges.resize(finger_count);
     }
     trace.clear();
+  }
+
+  /// A trace has room for few bodies: first those that no joint holds, which people pick up.
+  void traceWhatIsLoose() {
+    std::vector<std::size_t> wanted = free;
+    std::ranges::stable_partition(wanted, [&](std::size_t i) {
+      return std::ranges::none_of(world->scene.joints,
+                                  [i](const Joint& joint) { return joint.body == i || joint.to == i; });
+    });
+    wanted.resize(std::min(wanted.size(), TraceSample{}.bodies.size()));
+    traced.assign(wanted.begin(), wanted.end());
   }
 
   /// Processes one tick, in the stages that Monitor::stages() lists.

@@ -12,7 +12,14 @@ namespace {
 
 using xml::Element;
 
-enum JointCode { kJointName = 203, kJointBodies = 229, kJointAxes = 230, kJointDirection = 231, kJointLimits = 232, kEngineJoint = 235 };
+enum JointCode {
+  kJointName = 203,
+  kJointBodies = 229,
+  kJointAxes = 230,
+  kJointDirection = 231,
+  kJointLimits = 232,
+  kEngineJoint = 235
+};
 
 constexpr double kSquare = 1e-3;   // cosine up to which two axes count as square
 constexpr double kHalfTurn = 180;  // a turning axis has no limits beyond [deg]

@@ -183,8 +183,7 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers, JointSet* l
 }
 
 void OwnSolvers::solve(const std::vector<BodyContact>& contacts, FingerJoints& fingers,
-                       const std::vector<ContactProblem::Motor>* motors, JointSet* links, Islands& islands,
-                       double h) {
+                       const std::vector<ContactProblem::Motor>* motors, JointSet* links, Islands& islands, double h) {
   joints_.begin(contacts, bodies_, h);
   all_motors_.assign(fingers.motors().begin(), fingers.motors().end());
   if (motors != nullptr) all_motors_.insert(all_motors_.end(), motors->begin(), motors->end());
