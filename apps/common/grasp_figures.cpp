@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include "framework/scene/joints/joint_motion.h"
 
 namespace presa {
 namespace {
@@ -149,7 +150,8 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
   figures.lift_height = height / static_cast<double>(hold.size()) - object.summary.start.z();
   figures.held_in_stick = longestStick(hold, figures.fingers, object.body, figures.hold_end);
 
-  if (figures.fingers.size() >= 2) {
+  figures.carried = !isJoined(result.world->scene.joints, static_cast<std::size_t>(object.body));
+  if (figures.fingers.size() >= 2 && figures.carried) {
     figures.turn = graspTurn(*result.world, between(*result.trace, 0, figures.hold_end), figures.hold_begin,
                              {.first = figures.fingers[0].contact_point,
                               .second = figures.fingers[1].contact_point,
@@ -159,7 +161,7 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
 
   const double fair_share =
       object.mass * result.world->scene.gravity.norm() / static_cast<double>(figures.fingers.size());
-  if (object.friction_static > 0) figures.slip_limit = fair_share / object.friction_static;
+  if (object.friction_static > 0 && figures.carried) figures.slip_limit = fair_share / object.friction_static;
   for (FingerGrasp& finger : figures.fingers) {
     const std::size_t f = finger.contact_point;
     finger.weight_share = fair_share > 0 ? finger.weight_share / fair_share : 0;

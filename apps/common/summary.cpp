@@ -158,7 +158,7 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
                        {"stick_fraction", finger.stick_fraction},
                        {"offset_range_mm", finger.offset_range * 1000},
                        {"mean_normal_force_N", finger.mean_normal_force},
-                       {"weight_share", finger.weight_share},
+                       {"weight_share", figures.carried ? Json(finger.weight_share) : Json(nullptr)},
                        {"grip_ripple", orNull(finger.grip_ripple)},
                        {"slip_onset", finger.slip ? slipOnset(*finger.slip) : Json(nullptr)},
                        {"slip_known_to_N", finger.slip ? Json(finger.slip_step) : Json(nullptr)}});
@@ -169,7 +169,7 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
                {"lift_height_m", figures.lift_height},
                {"held_in_stick_s", figures.held_in_stick},
                {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
-               {"slip_limit_N", figures.slip_limit}};
+               {"slip_limit_N", figures.carried ? Json(figures.slip_limit) : Json(nullptr)}};
   addStrength(graspStrength(result, figures), json);
   json["fingers"] = fingers;
   return json;

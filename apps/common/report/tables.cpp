@@ -56,8 +56,9 @@ std::string graspTable(const RunResult& result, const GraspFigures& grasp) {
     const auto& slip = finger.slip;
     rows += row({escape(result.contact_points[finger.contact_point].name), fixed(finger.stick_fraction * 100, 1),
                  fixed(finger.offset_range * 1000, 4), fixed(finger.mean_normal_force, 3),
-                 fixed(finger.weight_share * 100, 1), finger.grip_ripple ? fixed(*finger.grip_ripple * 100, 3) : "–",
-                 slip ? fixed(slip->time, 3) : "–", slip ? fixed(slip->normal_force, 4) : "–",
+                 grasp.carried ? fixed(finger.weight_share * 100, 1) : "–",
+                 finger.grip_ripple ? fixed(*finger.grip_ripple * 100, 3) : "–", slip ? fixed(slip->time, 3) : "–",
+                 slip ? fixed(slip->normal_force, 4) : "–",
                  slip && grasp.slip_limit > 0 ? fixed((slip->normal_force / grasp.slip_limit - 1) * 100, 1) : "–"});
   }
   return table({"contact point", "in stick [%]", "offset range [mm]", "mean grip rendered [N]", "share of weight [%]",

@@ -1,4 +1,5 @@
 #include "framework/record/monitor/monitor.h"
+#include "framework/scene/joints/joint_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,10 +79,7 @@ struct Monitor::Impl {
   /// A trace has room for few bodies: first those that no joint holds, which people pick up.
   void traceWhatIsLoose() {
     std::vector<std::size_t> wanted = free;
-    std::ranges::stable_partition(wanted, [&](std::size_t i) {
-      return std::ranges::none_of(world->scene.joints,
-                                  [i](const Joint& joint) { return joint.body == i || joint.to == i; });
-    });
+    std::ranges::stable_partition(wanted, [&](std::size_t i) { return !isJoined(world->scene.joints, i); });
     wanted.resize(std::min(wanted.size(), TraceSample{}.bodies.size()));
     traced.assign(wanted.begin(), wanted.end());
   }

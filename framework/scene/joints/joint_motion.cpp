@@ -1,5 +1,6 @@
 #include "framework/scene/joints/joint_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +19,10 @@ std::size_t positionCount(const Joint& joint) noexcept {
 
 bool isAngle(const Joint& joint, std::size_t i) noexcept {
   return joint.type == JointType::kBall || joint.axes[i].turns;
+}
+
+bool isJoined(const std::vector<Joint>& joints, std::size_t body) {
+  return std::ranges::any_of(joints, [body](const Joint& joint) { return joint.body == body || joint.to == body; });
 }
 
 JointOpening openingOf(const Joint& joint, const JointPose& pose) noexcept {

@@ -15,6 +15,9 @@ std::size_t positionCount(const Joint& joint) noexcept;
 /// Whether position i is an angle [rad]; else a distance [m].
 bool isAngle(const Joint& joint, std::size_t i) noexcept;
 
+/// Whether a joint holds the body, index into Scene::bodies.
+bool isJoined(const std::vector<Joint>& joints, std::size_t body);
+
 /// How far a joint is open in the directions that it locks. 0 where the joint holds exactly.
 struct JointOpening {
   double distance = 0;  ///< [m]

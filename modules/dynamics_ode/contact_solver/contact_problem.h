@@ -61,6 +61,9 @@ struct ContactProblem {
     JointFrames frames;  ///< in the axes of A and B, from their centres of mass; fixed: in W
     std::array<double, presa::Joint::kMaxAxes> position{};  ///< of its axes; angles are continued beyond half a turn
     Vec3 f_B_W = Vec3::Zero(), m_B_W = Vec3::Zero();  ///< on B at the joint [N], [N m]; in: last step; out: this one
+    /// Velocities by which the locked directions were led so that the joint closes at the end of the step; in: the
+    /// first guess [m/s, rad/s].
+    std::array<double, 6> lead{};
   };
   std::vector<Body> bodies;
   std::vector<Contact> contacts;

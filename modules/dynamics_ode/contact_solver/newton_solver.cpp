@@ -184,6 +184,9 @@ void NewtonSolver::addJoint(const ContactProblem& problem, const ContactProblem:
   rows.count = appendRows(problem, joint, X_WA, X_WB, h, axes_);
   rows.end = axes_.size();
   rows.begin = gapOf(joint, X_WA, X_WB);
+  if (!is_stiff_) {
+    for (std::size_t i = 0; i < rows.count; ++i) axes_[rows.first + i].goal += joint.lead[i];
+  }
   locked_.push_back(rows);
 }
 
@@ -344,6 +347,7 @@ bool NewtonSolver::arrived() const noexcept {
 }
 
 bool NewtonSolver::minimise() {
+  ends_stand_ = false;
   const std::size_t affordable = options_.max_products / std::max<std::size_t>(1, matrix_.work());
   const std::size_t iterations = std::clamp(affordable, kMinIterations, options_.max_iterations);
   for (std::size_t i = 0; i < iterations; ++i) {
@@ -378,10 +382,11 @@ double NewtonSolver::standCones() {
 void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     ContactProblem::Body& body = problem.bodies[i];
+    const End end = ends_stand_ ? ends_[i] : endOf(body, v_[i], h);
     body.v_WCm = v_[i].head<3>();
-    body.w_WB = v_[i].tail<3>();
-    body.p_WCm += h * body.v_WCm;
-    driftRotation(body.q_WB, body.w_WB, body.inertia_B, body.inverse_inertia_B, h);
+    body.p_WCm = end.X_WCm.p;
+    body.q_WB = end.X_WCm.q;
+    body.w_WB = end.w_WB;
   }
   const auto force = [&](const Row& row) { return Vec3(row.R.transpose() * row.impulseAt(row.velocityIn(v_)) / h); };
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) problem.contacts[i].f_B_W = force(rows_[i]);
@@ -393,22 +398,27 @@ void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
   }
 }
 
+NewtonSolver::End NewtonSolver::endOf(const ContactProblem::Body& body, const Vec6& v, double h) {
+  End end{{body.p_WCm + h * v.head<3>(), body.q_WB}, v.tail<3>()};
+  driftRotation(end.X_WCm.q, end.w_WB, body.inertia_B, body.inverse_inertia_B, h);
+  return end;
+}
+
+Pose NewtonSolver::poseAtEnd(std::int32_t i) const {
+  return i == ContactProblem::kFixed ? Pose() : ends_[index(i)].X_WCm;
+}
+
 // What the joints would miss at the end of the step, as bodies turn and joints with them: to be added to the goals of
 // locked directions. Returns the largest [m/s, rad/s].
 double NewtonSolver::missOf(const ContactProblem& problem, double h) {
   ends_.resize(problem.bodies.size());
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    const ContactProblem::Body& body = problem.bodies[i];
-    Vec3 w_WB = v_[i].tail<3>();
-    ends_[i] = {body.p_WCm + h * v_[i].head<3>(), body.q_WB};
-    driftRotation(ends_[i].q, w_WB, body.inertia_B, body.inverse_inertia_B, h);
-  }
-  const auto endOf = [&](std::int32_t i) { return i == ContactProblem::kFixed ? Pose() : ends_[index(i)]; };
+  for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i] = endOf(problem.bodies[i], v_[i], h);
+  ends_stand_ = true;
   double largest = 0;
   for (std::size_t j = 0; j < problem.joints.size(); ++j) {
     const ContactProblem::Joint& joint = problem.joints[j];
     Locked& rows = locked_[j];
-    const JointGap end = gapOf(joint, endOf(joint.A), endOf(joint.B));
+    const JointGap end = gapOf(joint, poseAtEnd(joint.A), poseAtEnd(joint.B));
     for (std::size_t i = 0; i < rows.count; ++i) {
       const double wanted = rows.begin.of[i] - closable(rows.begin, i, h);
       rows.miss[i] = (wanted - end.of[i]) / h;
@@ -431,6 +441,7 @@ void NewtonSolver::moveGoals() {
   }
   matrix_.solve(step_);
   for (std::size_t k = 0; k < v_.size(); ++k) v_[k] += step_[k];
+  ends_stand_ = false;
 }
 
 bool NewtonSolver::hasBounds() const noexcept {
@@ -453,12 +464,11 @@ bool NewtonSolver::turnJoints(const ContactProblem& problem, double h) {
     const Vec3 momentum = own_inertia_W_[i] * free_turn_[i] + turning_[i] * Vec3(v_[i].tail<3>());
     free_[i].tail<3>() = inertia_W_[i].ldlt().solve(momentum);
   }
-  const auto endOf = [&](std::int32_t i) { return i == ContactProblem::kFixed ? Pose() : ends_[index(i)]; };
   for (std::size_t j = 0; j < problem.joints.size(); ++j) {
     const ContactProblem::Joint& joint = problem.joints[j];
     const Locked& rows = locked_[j];
     turned_.clear();
-    appendRows(problem, joint, endOf(joint.A), endOf(joint.B), h, turned_);
+    appendRows(problem, joint, poseAtEnd(joint.A), poseAtEnd(joint.B), h, turned_);
     for (std::size_t i = 0; i < turned_.size(); ++i) {
       AxisRow& row = axes_[rows.first + i];
       row.J_A = turned_[i].J_A;
@@ -494,6 +504,9 @@ bool NewtonSolver::aimJoints(const ContactProblem& problem, double h) {
 void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
   for (std::size_t j = 0; j < problem.joints.size(); ++j) {
     ContactProblem::Joint& joint = problem.joints[j];
+    const Locked& rows = locked_[j];
+    for (std::size_t i = 0; i < rows.count; ++i)
+      joint.lead[i] = is_stiff_ ? 0 : axes_[rows.first + i].goal + closable(rows.begin, i, h) / h;
     joint.f_B_W = joint.m_B_W = Vec3::Zero();
     for (std::size_t i = locked_[j].first; i < locked_[j].end; ++i) {
       const AxisRow& row = axes_[i];

@@ -79,6 +79,12 @@ class NewtonSolver {
   bool aimJoints(const ContactProblem& problem, double h);
   double missOf(const ContactProblem& problem, double h);
   void moveGoals();
+  struct End {
+    Pose X_WCm;  // of the centre of mass, with the body's axes
+    Vec3 w_WB;   // [rad/s]
+  };
+  static End endOf(const ContactProblem::Body& body, const Vec6& v, double h);
+  Pose poseAtEnd(std::int32_t i) const;
   bool turnJoints(const ContactProblem& problem, double h);
   void giveBackJoints(ContactProblem& problem, double h) const;
   void assembleAxis(const AxisRow& row);
@@ -108,7 +114,8 @@ class NewtonSolver {
     std::array<double, kMaxLocked> miss{};
   };
   std::vector<Locked> locked_;  // as the joints of the problem
-  std::vector<Pose> ends_;      // centres of mass at the end of the step, with joints
+  std::vector<End> ends_;       // by body, with joints: where v_ leads in the step
+  bool ends_stand_ = false;     // ends_ are those of v_
   std::vector<double> mass_;
   std::vector<Mat3> inertia_W_;
   bool is_stiff_ = false;            // joints act along their directions at the end of this step

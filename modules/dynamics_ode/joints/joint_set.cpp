@@ -68,6 +68,7 @@ ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, 
   joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ, link.p_BCm);
   joint.position = link.position;
   joint.f_B_W = link.f_B_W;
+  joint.lead = link.next_lead;
   return joint;
 }
 

@@ -26,8 +26,14 @@ class JointSet {
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
   const Joint& joint(std::size_t i) const { return *links_[i].joint; }
-  /// Keeps the force of joint i for the next step [N].
-  void setForce(std::size_t i, const Vec3& f_B_W) { links_[i].f_B_W = f_B_W; }
+  /// Keeps what the solver found of joint i for the next step.
+  void keep(std::size_t i, const ContactProblem::Joint& solved) {
+    links_[i].f_B_W = solved.f_B_W;
+    for (std::size_t k = 0; k < solved.lead.size(); ++k) {
+      links_[i].next_lead[k] = 2 * solved.lead[k] - links_[i].lead[k];  // goes on as it went
+    }
+    links_[i].lead = solved.lead;
+  }
 
  private:
   struct Link {
@@ -36,6 +42,7 @@ class JointSet {
     Vec3 p_BCm = Vec3::Zero(), p_ACm = Vec3::Zero();  // centres of mass
     Pose X_WB, X_WA;                                  // at the start
     std::array<double, Joint::kMaxAxes> position{};
+    std::array<double, 6> lead{}, next_lead{};
     Vec3 f_B_W = Vec3::Zero();  // in the last step
   };
   static Pose poseNow(std::size_t body, const Pose& start, const BodySet& bodies);

@@ -53,6 +53,21 @@ std::string runMachine(const std::string& more) {
   return outcome.out;
 }
 
+// A joint carries the knob of the door and turns it: neither its weight nor its turn in the fingers says anything.
+TEST(JointResults, GraspOfAJoinedObjectHasNoSlipLimitAndNoTurn) {
+  const std::string file = test::scratch("door.json");
+  const test::Outcome outcome =
+      test::presa("run " + test::source("config/scenes/door.xml") + " --lockstep --view none --summary " + file);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json grasp = json::parse(contentsOf(file)).at("grasp");
+  EXPECT_EQ(grasp.at("object"), "knob");
+  EXPECT_TRUE(grasp.at("slip_limit_N").is_null());
+  EXPECT_TRUE(grasp.at("turn").is_null());
+  EXPECT_TRUE(grasp.at("fingers").at(0).at("weight_share").is_null());
+  EXPECT_THAT(outcome.out, Not(HasSubstr("turned")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("weight")));
+}
+
 // The motor is strong enough for its speed in the first step, and the speed of a step is that at its end: the last angle
 // is known to one step. The fall takes sqrt(2 h / g), to one step.
 TEST(JointResults, SummaryHasRangesAndTimesAtStops) {

@@ -34,7 +34,7 @@ std::string fallingScene(const std::string& name, const std::string& haptic = "1
 // dynamics is cheaper but less accurate: that beats nothing.
 TEST(Apply, RunsFromTheCommandLine) {
   const std::string scene = fallingScene("fall.xml", "20000"), out = scratch("fall"), better = scratch("better.xml");
-  const std::string study = "cost " + scene + " --for 0.5 --metric position --out " + out + " --apply " + better;
+  const std::string study = "cost " + scene + " --for 2 --metric position --out " + out + " --apply " + better;
   auto outcome = presa(study + " --knob dynamics_rate=100,200");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("The default is on the front: " + better + " is not written."), std::string::npos)
