@@ -28,4 +28,16 @@ class PngPicture {
   osg::ref_ptr<osg::Image> image_;
 };
 
+/// Pixels in the violet of joints.
+inline int violetIn(const std::string& file) {
+  const PngPicture picture(file);
+  int count = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const Color c = picture.at(x, y);
+      count += c.b > 90 && 3 * c.b > 4 * c.r && 2 * c.b > 3 * c.g;
+    }
+  return count;
+}
+
 }  // namespace presa::test

@@ -176,18 +176,6 @@ TEST(JointResults, RecordingGivesPositionsFromItsPoses) {
   EXPECT_THAT(contentsOf(page), HasSubstr("<h2>Joints</h2>"));
 }
 
-/// Pixels in the violet of joints.
-int violet(const std::string& file) {
-  const test::PngPicture picture(file);
-  int count = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const test::Color c = picture.at(x, y);
-      count += c.b > 90 && 3 * c.b > 4 * c.r && 2 * c.b > 3 * c.g;
-    }
-  return count;
-}
-
 TEST(JointResults, ReplayDrawsJointsWhereAskedFor) {
   const std::string file = test::scratch("shown.h5"), with = test::scratch("with.png"),
                     none = test::scratch("none.png");
@@ -195,8 +183,8 @@ TEST(JointResults, ReplayDrawsJointsWhereAskedFor) {
   const std::string how = "replay " + file + " --view offscreen --hud off --background white --screenshot ";
   EXPECT_EQ(test::presa(how + with + " --show joints").status, 0);
   EXPECT_EQ(test::presa(how + none).status, 0);
-  EXPECT_EQ(violet(none), 0);
-  EXPECT_GT(violet(with), 200);
+  EXPECT_EQ(test::violetIn(none), 0);
+  EXPECT_GT(test::violetIn(with), 200);
 }
 
 TEST(JointResults, ExplainAndCheckTellOfThem) {

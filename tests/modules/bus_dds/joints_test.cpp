@@ -11,18 +11,6 @@
 namespace presa::bus {
 namespace {
 
-/// Pixels in the violet of joints.
-int violetIn(const std::string& file) {
-  const test::PngPicture picture(file);
-  int count = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const test::Color c = picture.at(x, y);
-      count += c.b > 90 && 3 * c.b > 4 * c.r && 2 * c.b > 3 * c.g;
-    }
-  return count;
-}
-
 TEST(BusDds, AViewerElsewhereDrawsJoints) {
   const BusSettings bus = ownDomain();
   const std::string base = testing::TempDir() + "/bus_joints_" + std::to_string(getpid());
@@ -42,9 +30,9 @@ TEST(BusDds, AViewerElsewhereDrawsJoints) {
     const std::string said = viewer.rest();
     ASSERT_EQ(viewer.end(), 0) << said;
     if (shown)
-      EXPECT_GT(violetIn(picture), 200);
+      EXPECT_GT(test::violetIn(picture), 200);
     else
-      EXPECT_EQ(violetIn(picture), 0);
+      EXPECT_EQ(test::violetIn(picture), 0);
   }
 }
 
