@@ -68,7 +68,9 @@ TEST(VisitCounts, SurviveAKill) {
     }
     children.push_back(child);
   }
-  while (!std::filesystem::exists(file) || std::filesystem::file_size(file) < 4000) usleep(1000);
+  const auto written = [&] { return std::filesystem::exists(file) && std::filesystem::file_size(file) >= 4000; };
+  for (int i = 0; i < 30'000 && !written(); ++i) usleep(1000);
+  EXPECT_TRUE(written()) << "the processes wrote nothing in 30 s";
   for (const pid_t child : children) kill(child, SIGKILL);
   for (const pid_t child : children) waitpid(child, nullptr, 0);
   const std::string text = contentsOf(file);
