@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "devices/hand/finger_plant.h"
 #include "devices/hand/scripted_hand.h"
 
 namespace presa {
@@ -32,54 +31,38 @@ class SideMotion final : public Motion {
   double side_;
 };
 
-class PlannedFingerDevice final : public Device {
+/// The hand along the motion that the plan becomes.
+class PlannedHand final : public ScriptedHand {
  public:
-  explicit PlannedFingerDevice(PlannedFinger finger)
-      : finger_(std::move(finger)),
-        hand_(std::make_unique<SideMotion>(*finger_.plan, finger_.side), finger_.settings.impedance.stiffness),
-        plant_(finger_.settings.impedance, finger_.period) {
-    plant_.reset(hand_.motion().at(0).p_WT);
-  }
+  explicit PlannedHand(PlannedFinger finger)
+      : ScriptedHand(alongPlan(finger)),
+        plan_(std::move(finger.plan)),
+        phases_(std::move(finger.phases)),
+        model_(std::move(finger.model)) {}
 
   bool looks() const override { return true; }
-  void see(const ObjectState& objects, const Tick& tick) noexcept override { finger_.plan->see(objects, tick.time); }
-
-  FingerInput read(const Tick& tick) noexcept override {
-    advance(tick);
-    return {plant_.position(), plant_.velocity(), finger_.plan->phase(), true};
-  }
-  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
-    advance(tick);
-    force_ = F_H_W.f;
-  }
-
-  std::vector<std::string> phases() const override { return finger_.phases; }
-  std::string model() const override { return finger_.model; }
-  double damping() const override { return finger_.settings.impedance.damping; }
-  double mass() const override { return finger_.settings.impedance.mass; }
-  std::vector<std::string> notes() const override { return finger_.settings.notes; }
+  void see(const ObjectState& objects, const Tick& tick) noexcept override { plan_->see(objects, tick.time); }
+  int phase(double /*time*/) const noexcept override { return plan_->phase(); }
+  std::vector<Place> path() const override { return Hand::path(); }  // nobody knows it before the run
+  std::string model() const override { return model_; }
+  std::vector<std::string> phases() const override { return phases_; }
 
  private:
-  void advance(const Tick& tick) noexcept {
-    for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) {
-      Vec3 force = force_;
-      const MotionTarget target = hand_.live(at_.time, tick.period, plant_.position(), force_, force);
-      plant_.step(target.p_WT, target.v_WT, force);
-    }
-    at_ = tick;
+  static HandSettings alongPlan(PlannedFinger& finger) {
+    finger.settings.motion = std::make_unique<SideMotion>(*finger.plan, finger.side);
+    finger.settings.lost_at = std::numeric_limits<double>::infinity();
+    return std::move(finger.settings);
   }
 
-  PlannedFinger finger_;
-  ScriptedHand hand_;
-  FingerPlant plant_;
-  Tick at_;
-  Vec3 force_ = Vec3::Zero();  // [N] force of the device since the last write
+  std::unique_ptr<PairPlan> plan_;
+  std::vector<std::string> phases_;
+  std::string model_;
 };
 
 }  // namespace
 
-std::unique_ptr<Device> makePlannedFinger(PlannedFinger finger) {
-  return std::make_unique<PlannedFingerDevice>(std::move(finger));
+std::unique_ptr<Hand> makePlannedFinger(PlannedFinger finger) {
+  return std::make_unique<PlannedHand>(std::move(finger));
 }
 
 }  // namespace presa

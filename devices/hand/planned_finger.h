@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "devices/hand/hand.h"
 #include "devices/hand/hand_settings.h"
 #include "devices/hand/pair_plan.h"
-#include "framework/device/device.h"
 
 namespace presa {
 
@@ -14,11 +14,10 @@ struct PlannedFinger {
   std::unique_ptr<PairPlan> plan;
   double side = 1;  ///< -1: thumb, at the negative end of the line between the fingertips; 1: index
   HandSettings settings;
-  double period = 0;                ///< of the haptic thread [s]
   std::vector<std::string> phases;  ///< names indexed by PairPlan::phase
   std::string model;                ///< Device::model
 };
-/// Makes it a device that observes the bodies.
-std::unique_ptr<Device> makePlannedFinger(PlannedFinger finger);
+/// A hand that observes the bodies.
+std::unique_ptr<Hand> makePlannedFinger(PlannedFinger finger);
 
 }  // namespace presa

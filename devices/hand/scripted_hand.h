@@ -1,25 +1,36 @@
 #pragma once
 #include <memory>
 
-#include "devices/hand/motion.h"
+#include "devices/hand/hand.h"
+#include "devices/hand/hand_settings.h"
 
 namespace presa {
 
 /// Pushes a fingertip along a motion: position control across the grip, force control along it. Both corrections are
 /// slow like a human hand, far below the contact dynamics. Frame W. Thread: haptic; nothing allocates.
-class ScriptedHand {
+class ScriptedHand : public Hand {
  public:
-  /// `stiffness`: of the hand [N/m].
-  ScriptedHand(std::unique_ptr<Motion> motion, double stiffness) : motion_(std::move(motion)), stiffness_(stiffness) {}
+  explicit ScriptedHand(HandSettings settings) : settings_(std::move(settings)) {}
 
-  /// Computes one period from `time` on, for a fingertip at p_WH under the device force `felt` [N]. Adds the hand's
-  /// forces other than its spring to `force` and returns the target of the spring.
-  MotionTarget live(double time, double period, const Vec3& p_WH, const Vec3& felt, Vec3& force) noexcept;
-  const Motion& motion() const { return *motion_; }
+  FingerImpedance impedance() const override { return settings_.impedance; }
+  Vec3 start() const override { return motion().at(0).p_WT; }
+  void feel(const Fingertip& tip) noexcept override { tip_ = tip; }
+  HandPush live(const Tick& tick) noexcept override;
+
+  int phase(double time) const noexcept override { return motion().at(time).phase; }
+  double lostAt() const override { return settings_.lost_at; }
+  std::vector<Place> path() const override;
+  std::string model() const override { return "scripted fingers: no person"; }
+  std::vector<std::string> phases() const override { return motion().phase_names; }
+  std::vector<double> phaseTimes() const override { return motion().phase_times; }
+  std::vector<PhaseIntent> phaseIntents() const override { return motion().phase_intents; }
+  std::vector<std::string> notes() const override { return settings_.notes; }
+
+  const Motion& motion() const noexcept { return *settings_.motion; }
 
  private:
-  std::unique_ptr<Motion> motion_;
-  double stiffness_;
+  HandSettings settings_;
+  Fingertip tip_;
   double grip_ = 0;            // [N] correction of the grip force
   Vec3 carry_ = Vec3::Zero();  // [N] correction that carries the load
 };

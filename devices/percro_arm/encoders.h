@@ -14,6 +14,7 @@ class Encoders {
  public:
   explicit Encoders(const Parameters& parameters)
       : count_(parameters.motors.count()),
+        whole_(parameters.motors.counted),
         to_motors_(transmission(parameters.geometry)),
         to_joints_(transmissionInverse(parameters.geometry)) {}
 
@@ -31,11 +32,13 @@ class Encoders {
   void sample(const Joints& q) noexcept {
     newest_ = (newest_ + 1) % kWindow;
     const Vec3 motors = to_motors_ * q / count_;
-    for (int i = 0; i < 3; ++i) past_[newest_][i] = std::nearbyint(motors[i]) + true_zero_[i];
+    for (int i = 0; i < 3; ++i) past_[newest_][i] = (whole_ ? std::nearbyint(motors[i]) : motors[i]) + true_zero_[i];
     used_ = std::min(used_ + 1, kWindow);
   }
   Joints joints() const noexcept { return to_joints_ * (count_ * (past_[newest_] - zero_)); }
   Vec3 jointRates(double period) const noexcept {
+    if (!whole_)
+      return to_joints_ * (count_ / period * (past_[newest_] - past_[(newest_ + kWindow - (used_ > 1)) % kWindow]));
     return to_joints_ * (count_ / period * Vec3(slope(0), slope(1), slope(2)));
   }
 
@@ -55,6 +58,7 @@ class Encoders {
   }
 
   double count_;
+  bool whole_;
   Mat3 to_motors_, to_joints_;
   Vec3 true_zero_ = Vec3::Zero(), zero_ = Vec3::Zero();
   std::array<Vec3, kWindow> past_{};

@@ -27,6 +27,7 @@ struct Motors {
   double current_bandwidth = 500;  ///< of the first-order current loop [Hz] GUESS
   double rotor_inertia = 1.4e-5;   ///< [kg m^2] GUESS: iron-less brushed motor of this torque
   int counts = 4000;               ///< encoder counts per turn of a motor PAPER
+  bool counted = true;             ///< false: the encoders have no steps, see properties.h
   double count() const { return 2 * std::numbers::pi / counts; }  ///< [rad]
 };
 

@@ -1,15 +1,16 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <sstream>
 
-#include "devices/hand/hand_settings.h"
-#include "devices/hand/scripted_hand.h"
+#include "devices/hand/hand_plugin.h"
+#include "devices/hand/worn_device.h"
 #include "devices/percro_arm/calibration/calibration_plugin.h"
 #include "devices/percro_arm/characterise.h"
 #include "devices/percro_arm/linked_arms.h"
-#include "devices/percro_arm/steps.h"
+#include "devices/percro_arm/properties.h"
 #include "devices/percro_arm/switched_on.h"
 #include "devices/percro_arm/thimble.h"
 #include "framework/core/schedule/rates.h"
@@ -18,27 +19,23 @@
 namespace presa {
 namespace {
 
+enum ArmCode { kNoPlace = 460, kBadPlace = 461, kOutOfReach = 462, kNoProperty = 466 };
+
 const Vec3 kGravity_W{0, 0, -9.81};  // of the room, independent of the scene
 
-/// A modelled arm moved by a scripted hand. Presa sees it through its encoders.
-class PercroArm final : public Device {
+/// A modelled arm, worn by a finger of a hand. Presa sees it through its encoders.
+class PercroArm final : public WornDevice {
  public:
-  PercroArm(const Pose& X_WD, HandSettings settings, const percro::Parameters& parameters, double period)
-      : X_WD_(X_WD),
-        hand_(std::move(settings.motion), settings.impedance.stiffness),
-        impedance_(settings.impedance),
-        lost_at_(settings.lost_at),
-        arm_(parameters, X_WD.q.conjugate() * kGravity_W, period),
-        notes_(std::move(settings.notes)) {
-    arm_.place(X_WD_.inverseTimes(hand_.motion().at(0).p_WT));
+  PercroArm(const Pose& X_WD, std::unique_ptr<Hand> worn_by, const percro::Parameters& parameters, double period)
+      : WornDevice(std::move(worn_by)), X_WD_(X_WD), arm_(parameters, X_WD.q.conjugate() * kGravity_W, period) {
+    arm_.place(X_WD_.inverseTimes(hand().start()));
     thimble_.place(arm_.state().q);
+    feel();
   }
 
   FingerInput read(const Tick& tick) noexcept override {
     advance(tick);
-    const MotionTarget target = hand_.motion().at(tick.time);
-    FingerInput input{X_WD_ * arm_.reportedPosition(), X_WD_.q * arm_.reportedVelocity(), target.phase,
-                      tick.time < lost_at_};
+    FingerInput input = sample(X_WD_ * arm_.reportedPosition(), X_WD_.q * arm_.reportedVelocity(), tick);
     input.oriented = true;
     input.q_WT = X_WD_.q * thimble_.orientation();
     input.w_WT = X_WD_.q * thimble_.rate();
@@ -51,45 +48,32 @@ class PercroArm final : public Device {
     arm_.command(X_WD_.q.conjugate() * F_H_W.f);
   }
 
-  std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
-  std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
-  std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
-  std::string model() const override { return "simulated PERCRO arms, scripted fingers: no device, no person"; }
+  std::string model() const override { return modelOf("simulated PERCRO arms", hand().model()); }
   std::vector<DeviceFact> facts() const override {
-    return {{"motor_heat", "1", arm_.maxHeat(), true}, {"least_force_share", "1", arm_.minShare(), true}};
+    std::vector<DeviceFact> facts = hand().facts();
+    facts.push_back({"motor_heat", "1", arm_.maxHeat(), true});
+    facts.push_back({"least_force_share", "1", arm_.minShare(), true});
+    return facts;
   }
-  double damping() const override { return impedance_.damping; }
-  double mass() const override { return impedance_.mass; }  // without the arm's, which changes from place to place
-  std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  /// Advances to `tick` under the held torques; after a stall by more than one period.
-  void advance(const Tick& tick) noexcept {
-    for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) live(at_.time, tick.period);
-    at_ = tick;
+  Fingertip fingertip() const noexcept override {
+    return {X_WD_ * arm_.state().x, X_WD_.q * arm_.state().v, X_WD_.q * arm_.tipForce()};
   }
-
-  void live(double time, double period) noexcept {
-    Vec3 push = Vec3::Zero();
-    const Vec3 felt = X_WD_.q * arm_.tipForce();
-    const MotionTarget target = hand_.live(time, period, X_WD_ * arm_.state().x, felt, push);
-    arm_.advance({.mass = impedance_.mass,
-                  .stiffness = impedance_.stiffness,
-                  .damping = impedance_.damping,
-                  .target = X_WD_.inverseTimes(target.p_WT),
-                  .target_velocity = X_WD_.q.conjugate() * target.v_WT,
-                  .force = X_WD_.q.conjugate() * push});
+  void move(const HandPush& push, double period) noexcept override {
+    const FingerImpedance impedance = hand().impedance();  // without the arm's, which changes from place to place
+    arm_.advance({.mass = impedance.mass,
+                  .stiffness = impedance.stiffness,
+                  .damping = impedance.damping,
+                  .target = X_WD_.inverseTimes(push.p_WT),
+                  .target_velocity = X_WD_.q.conjugate() * push.v_WT,
+                  .force = X_WD_.q.conjugate() * push.with(Vec3::Zero())});
     thimble_.sample(arm_.state().q, arm_.encoders().joints(), period);
   }
 
   Pose X_WD_;
-  ScriptedHand hand_;
-  FingerImpedance impedance_;
-  double lost_at_;
   percro::SimulatedArm arm_;
   percro::Thimble thimble_;
-  std::vector<std::string> notes_;
-  Tick at_;  // time of the arm
 };
 
 /// Reads `count` numbers; nullopt with an error otherwise.
@@ -97,7 +81,7 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
                                              const std::string& example, Diagnostics& diagnostics) {
   const auto found = binding.settings.find(key);
   if (found == binding.settings.end()) {
-    diagnostics.error(460, binding.where,
+    diagnostics.error(kNoPlace, binding.where,
                       "role '" + binding.role + "': driver 'percro_arm' needs the setting '" + key + "'",
                       "where the arm's axes meet, in the world: <set key=\"" + key + "\" value=\"" + example + "\"/>");
     return std::nullopt;
@@ -108,7 +92,7 @@ std::optional<std::vector<double>> numbersOf(const DeviceBinding& binding, const
   double square = 0;
   for (const double value : numbers) square += value * value;
   if (text.eof() && numbers.size() == count && std::isfinite(square) && (count != 4 || square > 0)) return numbers;
-  diagnostics.error(461, found->second.where,
+  diagnostics.error(kBadPlace, found->second.where,
                     key + " must be " + std::to_string(count) + " numbers" + (count == 4 ? ", not all 0" : "") +
                         ", found " + quote(found->second.value),
                     "e.g. " + example);
@@ -122,40 +106,80 @@ std::optional<Pose> readBase(const DeviceBinding& binding, Diagnostics& diagnost
   return Pose{{(*p)[0], (*p)[1], (*p)[2]}, Quat((*q)[0], (*q)[1], (*q)[2], (*q)[3]).normalized()};
 }
 
-/// Reports a motion that leaves the reach of the arm.
-void checkReach(const DeviceBinding& binding, const Pose& X_WD, const Motion& motion, const percro::Geometry& geometry,
+/// The arm of the paper without the properties that the rig takes away.
+percro::Parameters readArm(const DeviceBinding& binding, Diagnostics& diagnostics) {
+  percro::Parameters arm = percro::paperArm();
+  const auto without = binding.settings.find("without");
+  if (without == binding.settings.end()) return arm;
+  std::vector<std::string> known;
+  for (const percro::Property& property : percro::properties()) known.emplace_back(property.name);
+  std::istringstream words(without->second.value);
+  for (std::string word; words >> word;) {
+    const auto found = std::ranges::find(percro::properties(), word, &percro::Property::name);
+    if (found != percro::properties().end()) {
+      found->remove(arm);
+      continue;
+    }
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    diagnostics.error(kNoProperty, without->second.where,
+                      "the arm has no property " + quote(word) + didYouMean(word, known), "properties: " + list);
+  }
+  return arm;
+}
+
+/// Reports a hand whose path leaves the reach of the arm.
+void checkReach(const DeviceBinding& binding, const Pose& X_WD, const Hand& hand, const percro::Geometry& geometry,
                 Diagnostics& diagnostics) {
-  constexpr double kStep = 0.01;  // [s]
-  const double end = motion.phase_times.empty() ? 0 : motion.phase_times.back();
-  for (const double t : percro::steps(0, end, static_cast<int>(std::ceil(end / kStep)) + 1)) {
-    const percro::Joints q = percro::jointsAt(geometry, X_WD.inverseTimes(motion.at(t).p_WT));
+  for (const Hand::Place& place : hand.path()) {
+    const percro::Joints q = percro::jointsAt(geometry, X_WD.inverseTimes(place.p_WT));
     if (percro::withinReach(geometry, q)) continue;
     std::array<char, 200> text;
     std::snprintf(text.data(), text.size(),
                   "role '%s': at %.2f s the motion leaves the arm's reach: tilt %.1f deg, yaw %.1f deg, length %.0f mm",
-                  binding.role.c_str(), t, q[0] * 180 / std::numbers::pi, q[1] * 180 / std::numbers::pi,
+                  binding.role.c_str(), place.time, q[0] * 180 / std::numbers::pi, q[1] * 180 / std::numbers::pi,
                   (q[2] + geometry.length_min) * 1e3);
-    diagnostics.error(462, binding.settings.at("pos").where, text.data(),
+    diagnostics.error(kOutOfReach, binding.settings.at("pos").where, text.data(),
                       "tilt up to 45 deg, yaw up to 40 deg, length 441 to 1070 mm: move or turn the base (pos, quat)");
     return;
   }
 }
 
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+/// Position step of the arm where its encoders count; 0 where they do not.
+double stepAt(const percro::Parameters& arm, const Pose& X_WD, const Vec3& p_WH) {
+  return arm.motors.counted ? percro::transverseStep(arm, X_WD.inverseTimes(p_WH).norm()) : 0;
+}
+
+DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                  const RunOptions& options, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  const percro::Parameters parameters = percro::paperArm();
-  const percro::ArmDynamics dynamics(parameters, Vec3::Zero());
-  HandSettings hand = readHand(binding, world, dynamics.inertia(percro::Joints::Zero())[2], diagnostics);
-  const auto base = readBase(binding, diagnostics);
-  if (hand.motion && base) checkReach(binding, *base, *hand.motion, parameters.geometry, diagnostics);
-  if (diagnostics.errorCount() > before) return nullptr;
-  return std::make_unique<PercroArm>(*base, std::move(hand), parameters,
-                                     RateTable(world.scene.rates).period(RateGroup::kHaptic));
+  std::vector<Thimble> thimbles;
+  std::vector<std::pair<percro::Parameters, Pose>> arms;
+  for (const DeviceBinding& binding : bindings) {
+    const percro::Parameters arm = readArm(binding, diagnostics);
+    const Pose X_WD = readBase(binding, diagnostics).value_or(Pose{});
+    const percro::ArmDynamics dynamics(arm, Vec3::Zero());
+    thimbles.push_back({.binding = binding,
+                        .carried = dynamics.inertia(percro::Joints::Zero())[2],
+                        .step = [arm, X_WD](const Vec3& p_WH) { return stepAt(arm, X_WD, p_WH); }});
+    arms.emplace_back(arm, X_WD);
+  }
+  const bool placed = diagnostics.errorCount() == before;
+  HandList hands = makeHands(thimbles, world, options, diagnostics);
+  for (std::size_t i = 0; i < hands.size() && placed; ++i) {
+    if (hands[i]) checkReach(bindings[i], arms[i].second, *hands[i], arms[i].first.geometry, diagnostics);
+  }
+  DeviceList devices(bindings.size());
+  if (diagnostics.errorCount() > before) return devices;
+  for (std::size_t i = 0; i < hands.size(); ++i)
+    devices[i] = std::make_unique<PercroArm>(arms[i].second, std::move(hands[i]), arms[i].first,
+                                             RateTable(world->scene.rates).period(RateGroup::kHaptic));
+  return devices;
 }
 
 const DevicePlugin kPlugin{
     .name = "percro_arm",
-    .create = createEach<create>,
+    .create = create,
     .rating = {.force = 10, .continuous = 4, .heating_time = 30, .behind = DeviceRating::Behind::kModel}};
 
 /// Both arms are switched on and homed, then linked and led through a region of 8 cm around the midpoint between them.

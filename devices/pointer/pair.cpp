@@ -19,13 +19,15 @@ Pair::Pair(const PairSettings& settings)
       yaw_(0, kTurn, kArrive),
       half_(openHalf(), kClose, kArrive) {}
 
-bool Pair::add(Side side, const FingerImpedance& impedance, double period) {
+bool Pair::add(Side side, double stiffness) {
   if (fingers_[side]) return false;
-  fingers_[side].emplace(DrivenFinger{FingerPlant(impedance, period), impedance.stiffness});
-  fingers_[side]->plant.reset(settings_.start + signOf(side) * openHalf() * Vec3::UnitX());
-  stiffness_ = stiffness_ > 0 ? std::min(stiffness_, impedance.stiffness) : impedance.stiffness;
+  fingers_[side].emplace();
+  fingers_[side]->tip.p_WH = start(side);
+  stiffness_ = stiffness_ > 0 ? std::min(stiffness_, stiffness) : stiffness;
   return true;
 }
+
+Vec3 Pair::start(Side side) const noexcept { return settings_.start + signOf(side) * openHalf() * Vec3::UnitX(); }
 
 void Pair::point(const PointerState& pointer) noexcept {
   if (pointer.sequence == 0 || !pointer.p_WT.allFinite()) return;
@@ -34,14 +36,14 @@ void Pair::point(const PointerState& pointer) noexcept {
   if (std::isfinite(pointer.closing)) closing_ = std::clamp(pointer.closing, 0.0, 1.0);
 }
 
-void Pair::advance(const Tick& tick) noexcept {
-  for (; at_.index < tick.index; ++at_.index) live(tick.period);
-  at_ = tick;
+const HandPush& Pair::live(Side side, const Tick& tick) noexcept {
+  for (; planned_ <= tick.index; ++planned_) plan(tick.period);
+  return fingers_[side]->push;
 }
 
 bool Pair::holds(const Vec3& along) const noexcept {
   for (std::size_t side : {kThumb, kIndex}) {
-    if (!fingers_[side] || fingers_[side]->felt.dot(signOf(side) * along) < kTouch) return false;
+    if (!fingers_[side] || fingers_[side]->tip.f_H_W.dot(signOf(side) * along) < kTouch) return false;
   }
   return true;
 }
@@ -51,7 +53,7 @@ double Pair::halfWidth(const Vec3& along) const noexcept {
   int fingers = 0;
   for (std::size_t side : {kThumb, kIndex}) {
     if (!fingers_[side]) continue;
-    width += signOf(side) * (fingers_[side]->plant.position() - centre_.value()).dot(along);
+    width += signOf(side) * (fingers_[side]->tip.p_WH - centre_.value()).dot(along);
     ++fingers;
   }
   return width / std::max(fingers, 1);
@@ -62,13 +64,13 @@ Vec3 Pair::middle(const Vec3& along) const noexcept {
   int fingers = 0;
   for (std::size_t side : {kThumb, kIndex}) {
     if (!fingers_[side]) continue;
-    sum += fingers_[side]->plant.position() - signOf(side) * half_.value() * along;
+    sum += fingers_[side]->tip.p_WH - signOf(side) * half_.value() * along;
     ++fingers;
   }
   return fingers > 0 ? Vec3(sum / fingers) : centre_.value();
 }
 
-void Pair::live(double period) noexcept {
+void Pair::plan(double period) noexcept {
   centre_.step(wanted_, period);
   yaw_.step(wanted_yaw_, period);
   const Vec3 along(std::cos(yaw_.value()), std::sin(yaw_.value()), 0), across(-along.y(), along.x(), 0);
@@ -90,8 +92,8 @@ void Pair::live(double period) noexcept {
   for (std::size_t side : {kThumb, kIndex}) {
     if (!fingers_[side]) continue;
     const double sign = signOf(side);
-    fingers_[side]->plant.step(centre + sign * reach * along,
-                               rate + sign * (closing * along + reach * yaw_.rate() * across), fingers_[side]->felt);
+    fingers_[side]->push = {.p_WT = centre + sign * reach * along,
+                            .v_WT = rate + sign * (closing * along + reach * yaw_.rate() * across)};
   }
 }
 

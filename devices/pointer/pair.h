@@ -2,7 +2,7 @@
 #include <array>
 #include <optional>
 
-#include "devices/hand/finger_plant.h"
+#include "devices/hand/hand.h"
 #include "devices/pointer/follower.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/device/pointer_state.h"
@@ -21,7 +21,7 @@ struct PairSettings {
 
 /// Thumb and index on the springs of one hand that follows a pointer. The hand moves slowly (`Follower`), its springs
 /// yield to obstacles, and the grip force is bounded for any closing. Each tick is simulated once, when the first
-/// finger asks for it, under the forces on both. Thread: haptic; nonblocking.
+/// finger asks for it, under what both feel. Thread: haptic; nonblocking.
 class Pair {
  public:
   enum Side : std::size_t { kThumb, kIndex };  ///< thumb at the negative end of the line between them
@@ -31,24 +31,22 @@ class Pair {
   static constexpr double kArrive = 0.05;      ///< time constant of the followers [s]
 
   explicit Pair(const PairSettings& settings);
-  /// Adds a finger; false when that side is taken.
-  bool add(Side side, const FingerImpedance& impedance, double period);
+  /// Adds a finger of this stiffness [N/m]; false when that side is taken.
+  bool add(Side side, double stiffness);
+  Vec3 start(Side side) const noexcept;  ///< fingertip at time 0
   const PairSettings& settings() const noexcept { return settings_; }
 
   void point(const PointerState& pointer) noexcept;
-  /// Simulates up to this tick.
-  void advance(const Tick& tick) noexcept;
-  /// Force of the device on the finger, held until the next call [N].
-  void push(Side side, const Vec3& f_H_W) noexcept { fingers_[side]->felt = f_H_W; }
-  const FingerPlant& finger(Side side) const noexcept { return fingers_[side]->plant; }
+  void feel(Side side, const Fingertip& tip) noexcept { fingers_[side]->tip = tip; }
+  /// Hand::live of that finger.
+  const HandPush& live(Side side, const Tick& tick) noexcept;
 
  private:
   struct DrivenFinger {
-    FingerPlant plant;
-    double stiffness;
-    Vec3 felt = Vec3::Zero();
+    Fingertip tip;
+    HandPush push;
   };
-  void live(double period) noexcept;
+  void plan(double period) noexcept;
   bool holds(const Vec3& along) const noexcept;
   double halfWidth(const Vec3& along) const noexcept;
   Vec3 middle(const Vec3& along) const noexcept;
@@ -61,7 +59,7 @@ class Pair {
   double wanted_yaw_ = 0, closing_ = 0;
   Follower<Vec3> centre_;
   Follower<double> yaw_, half_;
-  Tick at_;
+  std::uint64_t planned_ = 0;  // ticks so far
 };
 
 }  // namespace presa::pointer

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <memory>
 
+#include "devices/hand/hand_plugin.h"
 #include "devices/hand/hand_settings.h"
+#include "devices/hand/ideal_device.h"
 #include "devices/pointer/pair.h"
 #include "devices/pointer/stylus.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -17,58 +19,43 @@ constexpr double kShareOfLimit = 0.6;  // of the force limit; the rest is for we
 constexpr double kSpan = 0.12;         // [m]
 constexpr double kAbove = 0.05;        // [m] initial height above all free bodies
 
-/// A tool moved with the mouse.
-class PointedTool : public Device {
- public:
-  PointedTool(HandSettings settings, bool window)
-      : damping_(settings.impedance.damping),
-        mass_(settings.impedance.mass),
-        notes_(std::move(settings.notes)),
-        window_(window) {}
+/// Refuses a run without a window.
+void needWindow(bool window) {
+  if (window) return;
+  refuse(449, "command line", "the rig's fingers are moved with the mouse, which needs a window",
+         "add --view window (it needs a display), or use a rig with another driver");
+}
 
-  void open() override {
-    if (window_) return;
-    refuse(449, "command line", "the rig's fingers are moved with the mouse, which needs a window",
-           "add --view window (it needs a display), or use a rig with another driver");
-  }
-  bool points() const override { return true; }
-  double damping() const override { return damping_; }
-  double mass() const override { return mass_; }
-  std::vector<std::string> notes() const override { return notes_; }
-
- private:
-  double damping_, mass_;
-  std::vector<std::string> notes_;
-  bool window_;
-};
-
-/// One fingertip of the pair.
-class PointedFinger final : public PointedTool {
+/// One finger of the pair.
+class PointedFinger final : public Hand {
  public:
   PointedFinger(std::shared_ptr<Pair> pair, Pair::Side side, HandSettings settings, bool window)
-      : PointedTool(std::move(settings), window), pair_(std::move(pair)), side_(side) {}
+      : pair_(std::move(pair)), side_(side), settings_(std::move(settings)), window_(window) {}
 
-  void point(const PointerState& pointer, const Tick&) noexcept override { pair_->point(pointer); }
-
-  FingerInput read(const Tick& tick) noexcept override {
-    pair_->advance(tick);
-    return {pair_->finger(side_).position(), pair_->finger(side_).velocity(), -1, true};
-  }
-  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
-    pair_->advance(tick);
-    pair_->push(side_, F_H_W.f);
-  }
+  void open() override { needWindow(window_); }
+  FingerImpedance impedance() const override { return settings_.impedance; }
+  Vec3 start() const override { return pair_->start(side_); }
+  bool points() const override { return true; }
+  void point(const PointerState& pointer) noexcept override { pair_->point(pointer); }
+  void feel(const Fingertip& tip) noexcept override { pair_->feel(side_, tip); }
+  HandPush live(const Tick& tick) noexcept override { return pair_->live(side_, tick); }
+  std::vector<std::string> notes() const override { return settings_.notes; }
 
  private:
   std::shared_ptr<Pair> pair_;
   Pair::Side side_;
+  HandSettings settings_;
+  bool window_;
 };
 
-class PointedStylus final : public PointedTool {
+/// A pen moved with the mouse.
+class PointedStylus final : public Device {
  public:
   PointedStylus(const Stylus& stylus, HandSettings settings, bool window)
-      : PointedTool(std::move(settings), window), stylus_(stylus) {}
+      : stylus_(stylus), settings_(std::move(settings)), window_(window) {}
 
+  void open() override { needWindow(window_); }
+  bool points() const override { return true; }
   void point(const PointerState& pointer, const Tick&) noexcept override { stylus_.point(pointer); }
   bool measuresOrientation() const override { return true; }
   FingerInput read(const Tick& tick) noexcept override {
@@ -79,9 +66,14 @@ class PointedStylus final : public PointedTool {
     stylus_.advance(tick);
     stylus_.push(F_H_W);
   }
+  double damping() const override { return settings_.impedance.damping; }
+  double mass() const override { return settings_.impedance.mass; }
+  std::vector<std::string> notes() const override { return settings_.notes; }
 
  private:
   Stylus stylus_;
+  HandSettings settings_;
+  bool window_;
 };
 
 /// Distance from a body's origin to its farthest point [m].
@@ -121,18 +113,19 @@ PairSettings readPair(const DeviceBinding& binding, const World& world, Diagnost
 
 /// The finger that `binding` names, of `pair`, which the first finger creates and the second joins. Null with a
 /// finding.
-std::unique_ptr<Device> makeFinger(const DeviceBinding& binding, const World& world, bool window,
-                                   std::shared_ptr<Pair>& pair, Diagnostics& diagnostics) {
+std::unique_ptr<Hand> makeFinger(const Thimble& thimble, const World& world, bool window, std::shared_ptr<Pair>& pair,
+                                 Diagnostics& diagnostics) {
+  const DeviceBinding& binding = thimble.binding;
   const std::size_t before = diagnostics.errorCount();
   const Pair::Side side = sideOf(binding, diagnostics) < 0 ? Pair::kThumb : Pair::kIndex;
-  HandSettings hand = readImpedance(binding, world, 0, {}, diagnostics);
+  HandSettings hand = readImpedance(binding, world, thimble.carried, {}, diagnostics);
   const PairSettings settings = readPair(binding, world, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
   if (!pair) pair = std::make_shared<Pair>(settings);
   if (!(pair->settings() == settings))
     diagnostics.error(455, binding.where, "role '" + binding.role + "' has other settings than the other finger",
                       "both fingers are one pair: give them the same grip, span, fingertip radius and force limit");
-  else if (!pair->add(side, hand.impedance, RateTable(world.scene.rates).period(RateGroup::kHaptic)))
+  else if (!pair->add(side, hand.impedance.stiffness))
     diagnostics.error(456, binding.where, "role '" + binding.role + "' has a side that another role already has",
                       "one pointer moves one thumb and one index finger; side=\"-1\" is the thumb's");
   if (diagnostics.errorCount() > before) return nullptr;
@@ -160,27 +153,34 @@ std::unique_ptr<Device> makeStylus(const DeviceBinding& binding, const World& wo
   return std::make_unique<PointedStylus>(stylus, std::move(hand), window);
 }
 
-DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
-                  const RunOptions& options, Diagnostics& diagnostics) {
+HandList createHands(const std::vector<Thimble>& thimbles, const std::shared_ptr<const World>& world,
+                     const RunOptions& options, Diagnostics& diagnostics) {
   std::shared_ptr<Pair> pair;  // one mouse moves all fingers
-  DeviceList fingers;
-  const bool window = options.view == RunOptions::View::kWindow;
-  for (const DeviceBinding& binding : bindings) {
-    if (!isStylus(binding, diagnostics)) {
-      fingers.push_back(makeFinger(binding, *world, window, pair, diagnostics));
-      continue;
-    }
-    fingers.push_back(makeStylus(binding, *world, window, diagnostics));
-    if (bindings.size() > 1)
-      diagnostics.error(458, binding.where, "role '" + binding.role + "' is a stylus beside other tools of the pointer",
-                        "one pointer moves one pair of fingers, or one stylus");
-  }
+  HandList fingers;
+  for (const Thimble& thimble : thimbles)
+    fingers.push_back(makeFinger(thimble, *world, options.view == RunOptions::View::kWindow, pair, diagnostics));
   return fingers;
 }
 
+DeviceList create(const std::vector<DeviceBinding>& bindings, const std::shared_ptr<const World>& world,
+                  const RunOptions& options, Diagnostics& diagnostics) {
+  const auto stylus =
+      std::ranges::find_if(bindings, [&](const DeviceBinding& binding) { return isStylus(binding, diagnostics); });
+  if (stylus == bindings.end()) return createIdeal<createHands>(bindings, world, options, diagnostics);
+  if (bindings.size() > 1)
+    diagnostics.error(458, stylus->where, "role '" + stylus->role + "' is a stylus beside other tools of the pointer",
+                      "one pointer moves one pair of fingers, or one stylus");
+  DeviceList tools(bindings.size());
+  tools[static_cast<std::size_t>(stylus - bindings.begin())] =
+      makeStylus(*stylus, *world, options.view == RunOptions::View::kWindow, diagnostics);
+  return tools;
+}
+
+const HandPlugin kHand{.create = createHands};
 const DevicePlugin kPlugin{.name = "pointer", .create = create, .rating = kImaginedRating};
 
 }  // namespace
 }  // namespace presa::pointer
 
 PRESA_DEVICE_PLUGIN(presa::pointer::kPlugin)
+PRESA_HAND_PLUGIN(presa::pointer::kHand)

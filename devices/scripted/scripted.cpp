@@ -1,7 +1,7 @@
 #include <optional>
 
-#include "devices/hand/finger_plant.h"
-#include "devices/hand/hand_settings.h"
+#include "devices/hand/hand_plugin.h"
+#include "devices/hand/ideal_device.h"
 #include "devices/hand/scripted_hand.h"
 #include "devices/hand/turn_plant.h"
 #include "framework/core/schedule/rates.h"
@@ -10,80 +10,58 @@
 namespace presa {
 namespace {
 
-/// A simulated fingertip that follows a motion through its own mass, damping and stiffness, and yields to contact
-/// forces. Position control across the grip, force control along it. With a motion that turns, it is a stylus, which
-/// yields to torques too.
-class ScriptedFinger final : public Device {
+/// A stylus: a fingertip along a motion that turns, which yields to torques too.
+class ScriptedStylus final : public IdealDevice {
  public:
-  ScriptedFinger(HandSettings settings, double period)
-      : hand_(std::move(settings.motion), settings.impedance.stiffness),
-        damping_(settings.impedance.damping),
-        mass_(settings.impedance.mass),
-        plant_(settings.impedance, period),
-        lost_at_(settings.lost_at),
-        notes_(std::move(settings.notes)) {
-    if (hand_.motion().oriented) turn_.emplace(TurnPlant::Impedance{}, period);
-    plant_.reset(hand_.motion().at(0).p_WT);
-  }
+  ScriptedStylus(std::unique_ptr<ScriptedHand> scripted, double period)
+      : IdealDevice(std::move(scripted), period), turn_(TurnPlant::Impedance{}, period) {}
 
+  bool measuresOrientation() const override { return true; }
   FingerInput read(const Tick& tick) noexcept override {
-    advance(tick);
-    const MotionTarget target = hand_.motion().at(tick.time);
-    FingerInput input{plant_.position(), plant_.velocity(), target.phase, tick.time < lost_at_};
-    if (turn_) {
-      input.oriented = true;
-      input.q_WT = turn_->orientation(target.q_WT);
-      input.w_WT = turn_->rate(target.w_WT);
-    }
+    FingerInput input = IdealDevice::read(tick);
+    const MotionTarget target = static_cast<const ScriptedHand&>(hand()).motion().at(tick.time);
+    input.oriented = true;
+    input.q_WT = turn_.orientation(target.q_WT);
+    input.w_WT = turn_.rate(target.w_WT);
     return input;
   }
 
-  void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
-    advance(tick);
-    held_ = F_H_W;
-  }
-
-  std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
-  std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
-  std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
-  bool measuresOrientation() const override { return turn_.has_value(); }
-  std::string model() const override { return "scripted fingers: no person"; }
-  double damping() const override { return damping_; }
-  double mass() const override { return mass_; }
-  std::vector<std::string> notes() const override { return notes_; }
-
  private:
-  /// Advances to `tick` under the held force; after a stall by more than one period.
-  void advance(const Tick& tick) noexcept {
-    for (; at_.index < tick.index; ++at_.index, at_.time += tick.period) {
-      Vec3 force = held_.f;
-      const MotionTarget target = hand_.live(at_.time, tick.period, plant_.position(), held_.f, force);
-      plant_.step(target.p_WT, target.v_WT, force);
-      if (turn_) turn_->step(held_.t);
-    }
-    at_ = tick;
+  void move(const HandPush& push, double period) noexcept override {
+    IdealDevice::move(push, period);
+    turn_.step(held().t);
   }
 
-  ScriptedHand hand_;
-  double damping_, mass_;
-  FingerPlant plant_;
-  double lost_at_;
-  std::vector<std::string> notes_;
-  std::optional<TurnPlant> turn_;  // of a stylus
-  Tick at_;                        // time of the plant
-  Wrench held_;                    // of the device since the last write
+  TurnPlant turn_;
 };
 
-std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+/// Null with findings. `carried`: mass of the device that the hand wears [kg].
+std::unique_ptr<ScriptedHand> makeHand(const DeviceBinding& binding, const World& world, double carried,
+                                       Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.errorCount();
-  HandSettings hand = readHand(binding, world, 0, diagnostics);
+  HandSettings settings = readHand(binding, world, carried, diagnostics);
   if (diagnostics.errorCount() > before) return nullptr;
-  return std::make_unique<ScriptedFinger>(std::move(hand), RateTable(world.scene.rates).period(RateGroup::kHaptic));
+  return std::make_unique<ScriptedHand>(std::move(settings));
+}
+
+std::unique_ptr<Device> create(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics) {
+  std::unique_ptr<ScriptedHand> hand = makeHand(binding, world, 0, diagnostics);
+  if (!hand) return nullptr;
+  const double period = RateTable(world.scene.rates).period(RateGroup::kHaptic);
+  if (hand->motion().oriented) return std::make_unique<ScriptedStylus>(std::move(hand), period);
+  return std::make_unique<IdealDevice>(std::move(hand), period);
+}
+
+std::unique_ptr<Hand> createHand(const Thimble& thimble, const std::shared_ptr<const World>& world,
+                                 const RunOptions& /*options*/, Diagnostics& diagnostics) {
+  return makeHand(thimble.binding, *world, thimble.carried, diagnostics);
 }
 
 const DevicePlugin kPlugin{.name = "scripted", .create = createEach<create>, .rating = kImaginedRating};
+const HandPlugin kHand{.create = createEachHand<createHand>};
 
 }  // namespace
 }  // namespace presa
 
 PRESA_DEVICE_PLUGIN(presa::kPlugin)
+PRESA_HAND_PLUGIN(presa::kHand)

@@ -54,7 +54,7 @@ std::int32_t bodyOf(const DeviceBinding& binding, const World& world, Diagnostic
 }  // namespace
 
 SubjectSettings readSettings(const DeviceBinding& binding, const World& world, const RunOptions& options,
-                             Diagnostics& diagnostics) {
+                             std::optional<double> resolution, Diagnostics& diagnostics) {
   SubjectSettings settings;
   if (const DeviceBinding::Setting* level = settingOf(binding, "level")) {
     const auto known = subject::levelNamed(level->value);
@@ -74,12 +74,13 @@ SubjectSettings readSettings(const DeviceBinding& binding, const World& world, c
   settings.trial = options.seed;
   // grip and load together must stay below the force limit, or the fingers would pass through the object
   for (const DeviceRole& role : world.scene.devices) {
-    if (role.role == binding.role) settings.max_grip = 0.9 * role.limits.force;
+    if (role.role != binding.role) continue;
+    settings.max_grip = 0.9 * std::min(role.limits.force, binding.limits.force.value_or(role.limits.force));
   }
   settings.reach = numberOf(binding, "reach", settings.reach, 1e-3, diagnostics);
   settings.hold = numberOf(binding, "hold", settings.hold, 0.0, diagnostics);
   const double drawn = subject::drawResolution(settings.seed, settings.subject, settings.trial);
-  settings.resolution = numberOf(binding, "resolution", drawn, 0.0, diagnostics);
+  settings.resolution = numberOf(binding, "resolution", resolution.value_or(drawn), 0.0, diagnostics);
   subject::Population population(settings.level);
   if (const DeviceBinding::Setting* noise = settingOf(binding, "noise")) {
     if (noise->value == "off") population.silence();

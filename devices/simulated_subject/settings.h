@@ -5,9 +5,10 @@
 
 namespace presa {
 
-/// Reads and checks a role's settings; the findings go to `diagnostics`.
+/// Reads and checks a role's settings; the findings go to `diagnostics`. `resolution`: of the device where the rig gives
+/// none [m]; none: drawn.
 SubjectSettings readSettings(const DeviceBinding& binding, const World& world, const RunOptions& options,
-                             Diagnostics& diagnostics);
+                             std::optional<double> resolution, Diagnostics& diagnostics);
 /// The gripped body: the one named by `object`, otherwise the only free body with a haptic geometry. The fingertip
 /// radius of a missing role is 0.
 Grasp readGrasp(const DeviceBinding& binding, const World& world, Diagnostics& diagnostics);

@@ -9,6 +9,8 @@ using subject::kDigits;
 
 constexpr double kSeenSliding = 0.02;  // [m/s]: above the speed at which the object yields under its weight
 constexpr double kSeeingTime = 0.02;   // [s]
+/// A worn device rubs and has mass: a force below this is no object. GUESS: above the bearings of a PERCRO arm, 0.2 N.
+constexpr double kUnnoticed = 0.3;  // [N]
 
 RandomStream streamOf(const SubjectSettings& settings, const char* name) {
   return {settings.seed, name, subject::itemOf(settings.subject, settings.trial)};
@@ -36,25 +38,35 @@ void SharedSubject::see(const ObjectState& objects, const Tick& tick) noexcept {
   afferents_.sight.object = !(settings_.eyes_closed && brain_.phase() == subject::Phase::kHold);
 }
 
+Vec3 SharedSubject::faceOf(int digit) const noexcept {
+  return grasp_.p_WB - (grasp_.width / 2 + grasp_.radius[static_cast<std::size_t>(digit)]) * inwardOf(digit);
+}
+
+Vec3 SharedSubject::start(int digit) const noexcept { return faceOf(digit) - settings_.reach * inwardOf(digit); }
+
 FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
   advance(tick);
   const Vec3 inward = inwardOf(digit);
-  const Vec3 face = grasp_.p_WB - (grasp_.width / 2 + grasp_.radius[static_cast<std::size_t>(digit)]) * inward;
   FingerInput input;
-  input.p_WH = face + subject::quantised(hand_.q(digit), settings_.resolution) * inward +
+  input.p_WH = faceOf(digit) + subject::quantised(hand_.q(digit), settings_.resolution) * inward +
                subject::quantised(hand_.y(digit), settings_.resolution) * Vec3::UnitZ();
   input.v_WH = hand_.vQ(digit) * inward + hand_.vY(digit) * Vec3::UnitZ();
   input.phase = static_cast<std::int32_t>(brain_.phase());
   input.valid = true;
-  input.buttons = brain_.phase() == subject::Phase::kHold ? 1 : 0;  // "ready" while holding with the wanted min grip
+  input.buttons = buttons();
   return input;
+}
+
+void SharedSubject::feelForce(int digit, const Vec3& f_H_W, double unnoticed) noexcept {
+  subject::DigitAfferents& felt = afferents_.digits[static_cast<std::size_t>(digit)];
+  const double normal = -f_H_W.dot(inwardOf(digit));
+  felt.normal = normal > unnoticed ? normal : 0;
+  felt.load = -f_H_W.z();
 }
 
 void SharedSubject::write(int digit, const Vec3& f_H_W, const Tick& tick) noexcept {
   advance(tick);
-  subject::DigitAfferents& felt = afferents_.digits[static_cast<std::size_t>(digit)];
-  felt.normal = std::max(0.0, -f_H_W.dot(inwardOf(digit)));
-  felt.load = -f_H_W.z();
+  feelForce(digit, f_H_W, 0);
 }
 
 void SharedSubject::advance(const Tick& tick) noexcept {
@@ -64,6 +76,11 @@ void SharedSubject::advance(const Tick& tick) noexcept {
 
 void SharedSubject::live(double period) noexcept {
   hand_.step(brain_.command(), afferents_.digits);
+  think(period);
+}
+
+/// The brain's turn, with the present state of the hand.
+void SharedSubject::think(double period) noexcept {
   for (int i = 0; i < kDigits; ++i) {
     subject::DigitAfferents& digit = afferents_.digits[static_cast<std::size_t>(i)];
     digit.q = hand_.q(i);
@@ -77,6 +94,32 @@ void SharedSubject::live(double period) noexcept {
   staying_behind_ += period * (rate - staying_behind_) / kSeeingTime;
   afferents_.sight.sliding = std::abs(staying_behind_) > kSeenSliding;
   brain_.step(afferents_);
+}
+
+void SharedSubject::feel(int digit, const Fingertip& tip) noexcept {
+  const auto i = static_cast<std::size_t>(digit);
+  const Vec3 inward = inwardOf(digit), across = inward.cross(Vec3::UnitZ()), at = tip.p_WH - faceOf(digit);
+  places_[i] = {at.dot(inward), tip.v_WH.dot(inward), at.z(), tip.v_WH.z()};
+  astray_[i] = at.dot(across);
+  v_astray_[i] = tip.v_WH.dot(across);
+  feelForce(digit, tip.f_H_W, kUnnoticed);
+}
+
+void SharedSubject::plan(double period) noexcept {
+  pushes_ = hand_.push(brain_.command(), places_);
+  think(period);
+}
+
+HandPush SharedSubject::push(int digit, const Tick& tick) noexcept {
+  for (; planned_ <= tick.index; ++planned_) plan(tick.period);
+  const auto i = static_cast<std::size_t>(digit);
+  const Vec3 inward = inwardOf(digit), across = inward.cross(Vec3::UnitZ());
+  const subject::SubjectParameters& body = settings_.parameters;
+  HandPush push;
+  push.force_W = -(body.posture_stiffness * astray_[i] + body.posture_damping * v_astray_[i]) * across;
+  push.carry_W = pushes_[i].up * Vec3::UnitZ();
+  push.grip_W = pushes_[i].along * inward;
+  return push;
 }
 
 }  // namespace presa

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "devices/hand/hand.h"
 #include "devices/simulated_subject/model/brain.h"
 #include "devices/simulated_subject/model/hand.h"
 #include "framework/core/schedule/tick.h"
@@ -35,8 +36,9 @@ struct SubjectSettings {
   bool operator==(const SubjectSettings&) const = default;
 };
 
-/// One hand and brain behind two devices. Each tick is simulated once, when the first device asks for it, under the
-/// forces of both. Thread: haptic; nonblocking.
+/// One hand and brain behind two devices. Each tick is simulated once, when the first device asks for it, under what
+/// both feel. The digits are in ideal devices (read, write), or wear modelled ones (feel, push). Thread: haptic;
+/// nonblocking.
 class SharedSubject {
  public:
   SharedSubject(const Grasp& grasp, const SubjectSettings& settings, double period);
@@ -46,6 +48,14 @@ class SharedSubject {
   FingerInput read(int digit, const Tick& tick) noexcept;
   void write(int digit, const Vec3& f_H_W, const Tick& tick) noexcept;
 
+  Vec3 start(int digit) const noexcept;
+  /// State of a digit that wears a modelled device.
+  void feel(int digit, const Fingertip& tip) noexcept;
+  /// Hand::live of such a digit.
+  HandPush push(int digit, const Tick& tick) noexcept;
+  /// Pressed while holding with the wanted min grip: "ready".
+  std::uint32_t buttons() const noexcept { return brain_.phase() == subject::Phase::kHold ? 1 : 0; }
+
   const subject::Brain& brain() const noexcept { return brain_; }
   const SubjectSettings& settings() const noexcept { return settings_; }
   /// Assigns a digit to a device; false when it is already taken.
@@ -54,6 +64,10 @@ class SharedSubject {
  private:
   void advance(const Tick& tick) noexcept;
   void live(double period) noexcept;
+  void plan(double period) noexcept;
+  void think(double period) noexcept;
+  Vec3 faceOf(int digit) const noexcept;
+  void feelForce(int digit, const Vec3& f_H_W, double unnoticed) noexcept;
   Vec3 inwardOf(int digit) const noexcept { return digit == 0 ? grasp_.inward_W : Vec3(-grasp_.inward_W); }
 
   const Grasp grasp_;
@@ -65,6 +79,10 @@ class SharedSubject {
   std::array<bool, subject::kDigits> taken_{};
   double seen_height_ = 0, staying_behind_ = 0;  // height of the object above the fingers [m]; its filtered rate [m/s]
   double seen_before_ = 0;
+  std::uint64_t planned_ = 0;  // ticks for which `pushes_` was computed so far
+  std::array<subject::Hand::Place, subject::kDigits> places_{};
+  std::array<double, subject::kDigits> astray_{}, v_astray_{};  // across grip and height [m], [m/s]
+  std::array<subject::Hand::Push, subject::kDigits> pushes_{};
 };
 
 }  // namespace presa

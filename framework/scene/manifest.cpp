@@ -5,6 +5,7 @@
 #include <map>
 
 #include "framework/plugin/plugin_loader.h"
+#include "framework/scene/scene.h"
 #include "framework/scene/scene_facts.h"
 #include "framework/scene/schemas.h"
 #include "framework/scene/xml/escaped.h"
@@ -208,7 +209,9 @@ void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& 
 /// `gives` says what others find the plug-in by.
 void checkGift(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
   if (manifest.gives.empty()) return;
-  const PluginKind giver = manifest.hasProxy() ? PluginKind::kRenderer : PluginKind::kModule;
+  const PluginKind giver = manifest.hasProxy()        ? PluginKind::kRenderer
+                           : manifest.gives == "hand" ? PluginKind::kDevice
+                                                      : PluginKind::kModule;
   if (manifest.kind == giver) return;
   diagnostics.error(
       kAgainstKind, root.where("gives"),
@@ -336,6 +339,18 @@ const std::vector<Manifest>& manifests() {
 const Manifest* findManifest(const std::string& name) {
   const auto found = std::ranges::find(manifests(), name, &Manifest::name);
   return found == manifests().end() ? nullptr : &*found;
+}
+
+std::vector<Manifest::Attribute> settingsOf(const DeviceBinding& binding) {
+  const Manifest* driver = findManifest(binding.driver);
+  if (driver == nullptr) return {};
+  std::vector<Manifest::Attribute> all = driver->settings;
+  const auto hand = std::ranges::find(driver->settings, "hand", &Manifest::Attribute::type);
+  if (hand == driver->settings.end()) return all;
+  const auto named = binding.settings.find(hand->name);
+  const Manifest* worn_by = findManifest(named == binding.settings.end() ? hand->default_value : named->second.value);
+  if (worn_by != nullptr) all.insert(all.end(), worn_by->settings.begin(), worn_by->settings.end());
+  return all;
 }
 
 const Manifest& manifestGiving(const std::string& what) {

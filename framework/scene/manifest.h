@@ -73,6 +73,11 @@ const Manifest* findManifest(const std::string& name);
 /// The first manifest that gives this ("view", "bus"). Throws InputError E590 when no plug-in does. Thread: any.
 const Manifest& manifestGiving(const std::string& what);
 
+struct DeviceBinding;
+/// The settings that a rig may give this device: those of its driver, and, where the driver has a setting of type
+/// "hand", those of the driver whose hand it names. Empty for a driver without a manifest. Thread: any.
+std::vector<Manifest::Attribute> settingsOf(const DeviceBinding& binding);
+
 /// "force effect"
 const char* nameOf(PluginKind kind);
 /// "body": as in a manifest.

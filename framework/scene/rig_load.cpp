@@ -18,12 +18,13 @@ const xml::Schema& rigSchema() {
   return schema;
 }
 
-/// Whether the driver's manifest says that the setting is a file.
-bool isFile(const std::string& driver, const std::string& key) {
-  const Manifest* manifest = findManifest(driver);
-  return manifest != nullptr && std::ranges::any_of(manifest->settings, [&](const Manifest::Attribute& setting) {
-           return setting.name == key && setting.type == "file";
-         });
+/// Keys of the settings that are files.
+std::vector<std::string> filesOf(const DeviceBinding& binding) {
+  std::vector<std::string> keys;
+  for (const Manifest::Attribute& setting : settingsOf(binding)) {
+    if (setting.type == "file" && binding.settings.contains(setting.name)) keys.push_back(setting.name);
+  }
+  return keys;
 }
 
 void addSetting(DeviceBinding& binding, const std::string& key, const DeviceBinding::Setting& setting,
@@ -71,10 +72,14 @@ DeviceBinding readBinding(const Element& device, Diagnostics& diagnostics) {
   return binding;
 }
 
-void resolvePaths(const Element& device, const std::string& directory) {
-  for (Element set : device.children("set")) {
-    if (isFile(device.attribute("driver"), set.attribute("key")))
-      set.setAttribute("value", resolvePath(set.attribute("value"), directory));
+/// Makes the paths of the settings that are files absolute, in the document too.
+void resolvePaths(const Element& device, const std::string& directory, DeviceBinding& binding) {
+  for (const std::string& key : filesOf(binding)) {
+    std::string& path = binding.settings.at(key).value;
+    path = resolvePath(path, directory);
+    for (Element set : device.children("set")) {
+      if (set.attribute("key") == key) set.setAttribute("value", path);
+    }
   }
 }
 
@@ -107,8 +112,8 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
     document.writeDefaults(rigSchema());
     rig.name = root.attribute("name");
     for (const Element& device : root.children("device")) {
-      resolvePaths(device, directory);
       rig.devices.push_back(readBinding(device, diagnostics));
+      resolvePaths(device, directory, rig.devices.back());
     }
     for (Element bus : root.children("bus"))
       if (bus.hasAttribute("keys")) bus.setAttribute("keys", resolvePath(bus.attribute("keys"), directory));
@@ -144,9 +149,7 @@ Rig parseRig(const std::string& xml, const std::string& name, const std::string&
 std::vector<std::string> filesNamedBy(const Rig& rig) {
   std::vector<std::string> files;
   for (const DeviceBinding& device : rig.devices) {
-    for (const auto& [key, setting] : device.settings) {
-      if (isFile(device.driver, key)) files.push_back(setting.value);
-    }
+    for (const std::string& key : filesOf(device)) files.push_back(device.settings.at(key).value);
   }
   return files;
 }

@@ -35,11 +35,12 @@ const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
 
 /// Settings that the driver's manifest does not list (E401). A driver without a manifest checks its own.
 void checkSettings(const std::string& driver, const std::vector<DeviceBinding>& bindings, Diagnostics& diagnostics) {
-  const Manifest* manifest = findManifest(driver);
-  if (manifest == nullptr) return;
-  std::vector<std::string> known;
-  for (const Manifest::Attribute& setting : manifest->settings) known.push_back(setting.name);
-  for (const DeviceBinding& binding : bindings) refuseUnknownSettings(binding, known, diagnostics);
+  if (findManifest(driver) == nullptr) return;
+  for (const DeviceBinding& binding : bindings) {
+    std::vector<std::string> known;
+    for (const Manifest::Attribute& setting : settingsOf(binding)) known.push_back(setting.name);
+    refuseUnknownSettings(binding, known, diagnostics);
+  }
 }
 
 /// ": did you mean 'scripted'?"

@@ -80,7 +80,7 @@ void checkDriver(const DeviceBinding& binding, Diagnostics& diagnostics) {
     return;
   }
   std::vector<std::string> settings;
-  for (const Manifest::Attribute& setting : driver->settings) settings.push_back(setting.name);
+  for (const Manifest::Attribute& setting : settingsOf(binding)) settings.push_back(setting.name);
   refuseUnknownSettings(binding, settings, diagnostics);
 }
 

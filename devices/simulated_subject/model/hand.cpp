@@ -54,26 +54,55 @@ Hand::Hand(const SubjectParameters& parameters, RandomStream noise, double perio
   for (Digit& digit : digits_) digit.q = digit.anchor = q;
 }
 
-void Hand::step(const MotorCommand& command, const std::array<DigitAfferents, kDigits>& felt) noexcept {
+std::array<Hand::Push, kDigits> Hand::pushAgainst(const MotorCommand& command,
+                                                  const std::array<DigitAfferents, kDigits>& felt) {
   noise_.step(command.grip);
   const double arm = parameters_.arm_stiffness * (sway() - command.aside);
   const double level = -parameters_.level_stiffness * 0.5 * (digits_[0].y - digits_[1].y);
+  std::array<Push, kDigits> pushes;
   for (int i = 0; i < kDigits; ++i) {
     Digit& digit = digits_[i];
     const double side = i == 0 ? 1 : -1;
     if (command.reaching) digit.anchor = command.reach + side * command.aside;
-    const double along = (command.grip + noise_.force(i)) * command.gain +
-                         parameters_.grip_stiffness * (digit.anchor + noise_.position(i) - digit.q) -
-                         parameters_.grip_damping * digit.v_q - felt[i].normal - side * arm;
-    digit.v_q += period_ * along / mass_;
+    pushes[i].along = (command.grip + noise_.force(i)) * command.gain +
+                      parameters_.grip_stiffness * (digit.anchor + noise_.position(i) - digit.q) -
+                      parameters_.grip_damping * digit.v_q - felt[i].normal - side * arm;
+    pushes[i].up = parameters_.posture_stiffness * (command.height - digit.y) + lift_ + side * level -
+                   parameters_.posture_damping * digit.v_y - felt[i].load;
+  }
+  return pushes;
+}
+
+void Hand::relax(Digit& digit) noexcept {
+  if (parameters_.muscle_time > 0) digit.anchor += period_ * (digit.q - digit.anchor) / parameters_.muscle_time;
+}
+
+void Hand::lift(const MotorCommand& command) noexcept {
+  lift_ += period_ * command.height_rate * parameters_.posture_stiffness * (command.height - meanHeight());
+}
+
+void Hand::step(const MotorCommand& command, const std::array<DigitAfferents, kDigits>& felt) noexcept {
+  const std::array<Push, kDigits> pushes = pushAgainst(command, felt);
+  for (int i = 0; i < kDigits; ++i) {
+    Digit& digit = digits_[i];
+    digit.v_q += period_ * pushes[i].along / mass_;
     digit.q += period_ * digit.v_q;
-    if (parameters_.muscle_time > 0) digit.anchor += period_ * (digit.q - digit.anchor) / parameters_.muscle_time;
-    const double up = parameters_.posture_stiffness * (command.height - digit.y) + lift_ + side * level -
-                      parameters_.posture_damping * digit.v_y - felt[i].load;
-    digit.v_y += period_ * up / mass_;
+    relax(digit);
+    digit.v_y += period_ * pushes[i].up / mass_;
     digit.y += period_ * digit.v_y;
   }
-  lift_ += period_ * command.height_rate * parameters_.posture_stiffness * (command.height - meanHeight());
+  lift(command);
+}
+
+std::array<Hand::Push, kDigits> Hand::push(const MotorCommand& command,
+                                           const std::array<Place, kDigits>& places) noexcept {
+  for (int i = 0; i < kDigits; ++i) {
+    static_cast<Place&>(digits_[i]) = places[i];
+    relax(digits_[i]);
+  }
+  const std::array<Push, kDigits> pushes = pushAgainst(command, {});
+  lift(command);
+  return pushes;
 }
 
 void Hand::place(double depth) noexcept {

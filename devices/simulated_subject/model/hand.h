@@ -50,6 +50,17 @@ class Hand {
   /// One period under the forces in `felt` (only normal and load are used).
   void step(const MotorCommand& command, const std::array<DigitAfferents, kDigits>& felt) noexcept;
 
+  /// Position and velocity of a digit.
+  struct Place {
+    double q = 0, v_q = 0, y = 0, v_y = 0;  ///< [m] [m/s]
+  };
+  /// Force of the muscles on a digit, inwards and up [N].
+  struct Push {
+    double along = 0, up = 0;
+  };
+  /// One period of a hand whose digits are where a device has them: what its muscles do, instead of step().
+  std::array<Push, kDigits> push(const MotorCommand& command, const std::array<Place, kDigits>& places) noexcept;
+
   double q(int digit) const noexcept { return digits_[digit].q; }
   double y(int digit) const noexcept { return digits_[digit].y; }
   double vQ(int digit) const noexcept { return digits_[digit].v_q; }
@@ -65,9 +76,13 @@ class Hand {
   void place(double depth) noexcept;
 
  private:
-  struct Digit {
-    double q = 0, v_q = 0, anchor = 0, y = 0, v_y = 0;
+  struct Digit : Place {
+    double anchor = 0;
   };
+  /// Push on each digit against these forces, from the present state.
+  std::array<Push, kDigits> pushAgainst(const MotorCommand& command, const std::array<DigitAfferents, kDigits>& felt);
+  void relax(Digit& digit) noexcept;
+  void lift(const MotorCommand& command) noexcept;
   const SubjectParameters parameters_;
   const double period_, mass_;
   MotorNoise noise_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "devices/hand/finger_plant.h"
+
 namespace presa::pointer {
 namespace {
 
@@ -16,31 +18,39 @@ const FingerImpedance kFinger{.mass = 0.1, .stiffness = 300, .damping = 8};
 /// Two fingers at 1 kHz around a fixed body of half width `half`, with a wall of `stiffness` [N/m] on each side.
 struct Bench {
   explicit Bench(double half = -1, double stiffness = 1000) : half_width(half), wall(stiffness) {
-    pair.add(Pair::kThumb, kFinger, kPeriod);
-    pair.add(Pair::kIndex, kFinger, kPeriod);
+    for (const auto side : {Pair::kThumb, Pair::kIndex}) {
+      pair.add(side, kFinger.stiffness);
+      plants[side].reset(pair.start(side));
+    }
   }
   void run(double seconds) {
     for (const auto ticks = static_cast<std::uint64_t>(std::lround(seconds / kPeriod)), end = at + ticks; at < end;)
       step();
   }
   void step() {
+    for (const auto side : {Pair::kThumb, Pair::kIndex}) {
+      const HandPush push = pair.live(side, {at, static_cast<double>(at) * kPeriod, kPeriod});
+      plants[side].step(push.p_WT, push.v_WT, felt[side]);
+    }
     ++at;
-    pair.advance({at, static_cast<double>(at) * kPeriod, kPeriod});
     for (const auto side : {Pair::kThumb, Pair::kIndex}) {
       const double sign = side == Pair::kThumb ? -1 : 1;
-      const double x = sign * pair.finger(side).position().x();
+      const double x = sign * this->x(side);
       const double depth = half_width < 0 ? 0 : std::max(0.0, half_width + kRadius - x);
       force[side] = wall * depth;
-      pair.push(side, Vec3(sign * force[side], 0, 0) + load);
+      felt[side] = Vec3(sign * force[side], 0, 0) + load;
+      pair.feel(side, {plants[side].position(), plants[side].velocity(), felt[side]});
     }
   }
   void point(const Vec3& p, double closing, double yaw = 0) { pair.point({++sequence, p, yaw, closing}); }
-  double x(Pair::Side side) const { return pair.finger(side).position().x(); }
+  double x(Pair::Side side) const { return plants[side].position().x(); }
 
   Pair pair{{.start = Vec3::Zero(), .fingertip = kRadius, .span = kSpan, .grip = kGrip, .push = kPush}};
   double half_width, wall;
   Vec3 load = Vec3::Zero();  ///< on each finger [N]
   std::array<double, 2> force{};
+  std::array<FingerPlant, 2> plants{FingerPlant(kFinger, kPeriod), FingerPlant(kFinger, kPeriod)};
+  std::array<Vec3, 2> felt{Vec3::Zero(), Vec3::Zero()};  ///< on each finger [N]
   std::uint64_t at = 0, sequence = 0;
 };
 
@@ -109,8 +119,8 @@ TEST(PointerPair, YieldsToALoadAndTurns) {
   bench.load = {0, 0, -2};
   bench.point(Vec3(0, 0, 0.1), 0, std::numbers::pi / 2);
   bench.run(5);
-  EXPECT_LT((bench.pair.finger(Pair::kThumb).position() - Vec3(0, -kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
-  EXPECT_LT((bench.pair.finger(Pair::kIndex).position() - Vec3(0, kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
+  EXPECT_LT((bench.plants[Pair::kThumb].position() - Vec3(0, -kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
+  EXPECT_LT((bench.plants[Pair::kIndex].position() - Vec3(0, kOpenHalf, 0.1 - 2 / 300.0)).norm(), 1e-6);
 }
 
 // Pointing far into a fixed obstacle, each finger pushes with the bound, independent of the distance.
@@ -120,7 +130,7 @@ TEST(PointerPair, PushesWithABoundedForce) {
     bench.point(Vec3(0, 0, -far), 0);
     double force = 0;
     for (int i = 0; i < 5000; ++i) {
-      force = 1000 * std::max(0.0, -0.01 - bench.pair.finger(Pair::kThumb).position().z());
+      force = 1000 * std::max(0.0, -0.01 - bench.plants[Pair::kThumb].position().z());
       bench.load = {0, 0, force};
       bench.step();
     }
