@@ -1,12 +1,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/file_text.h"
 #include "apps/experiment/commands/experiment_commands.h"
 #include "apps/experiment/simulate/power.h"
 #include "apps/experiment/simulate/studies.h"
+#include "apps/experiment/simulate/variations.h"
 #include "experiments/runner/definition/read.h"
 #include "framework/core/diagnostics/refuse.h"
 
@@ -39,19 +41,10 @@ void claimFolder(const StudiesPlan& plan, const Experiment& experiment) {
     refuse(951, plan.out, "holds studies of another experiment, level or seed", "give another --out");
 }
 
-int simulate(StudiesPlan plan, const std::string& shard) {
-  takeShard(shard, plan);
-  plan.experiment_file = fs::absolute(plan.experiment_file).string();
-  if (!plan.rig_file.empty()) plan.rig_file = fs::absolute(plan.rig_file).string();
-  Diagnostics diagnostics;
-  const auto experiment = readExperiment(plan.experiment_file, plan.rig_file, diagnostics, plan.level);
-  std::fputs(diagnostics.text().c_str(), stderr);
-  if (!experiment) return kExitBadInput;
-  if (experiment->model.empty())
-    refuse(952, plan.experiment_file, "its rig waits for a person",
-           "--simulated L0, L1 or L2, or a --rig with simulated devices");
-  claimFolder(plan, *experiment);
-  const StudiesOutcome outcome = runStudies(plan, sessionsOf(plan, experiment->seed));
+/// Runs the studies; an exit status when they are not all complete.
+std::optional<int> complete(const StudiesPlan& plan, const Experiment& experiment) {
+  claimFolder(plan, experiment);
+  const StudiesOutcome outcome = runStudies(plan, sessionsOf(plan, experiment.seed));
   for (const std::string& failure : outcome.failed) std::fprintf(stderr, "presa: error: %s\n", failure.c_str());
   if (outcome.interrupted) {
     std::fprintf(stderr, "stopped; %zu sessions are complete, the same command continues\n",
@@ -59,8 +52,43 @@ int simulate(StudiesPlan plan, const std::string& shard) {
     return kExitInterrupted;
   }
   std::printf("%zu sessions complete, %zu of them before, %zu failed\n%s\n", outcome.complete + outcome.found,
-              outcome.found, outcome.failed.size(), experiment->model.c_str());
+              outcome.found, outcome.failed.size(), experiment.model.c_str());
   if (!outcome.failed.empty()) return kExitFault;
+  return std::nullopt;
+}
+
+/// Refuses what cannot be simulated.
+std::optional<Experiment> readSimulated(const StudiesPlan& plan) {
+  Diagnostics diagnostics;
+  auto experiment = readExperiment(plan.experiment_file, plan.rig_file, diagnostics, plan.level);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (experiment && experiment->model.empty())
+    refuse(952, plan.experiment_file, "its rig waits for a person",
+           "--simulated L0, L1 or L2, or a --rig with simulated devices");
+  return experiment;
+}
+
+int simulateVariations(const StudiesPlan& plan, const Experiment& given, const std::vector<std::string>& settings) {
+  const std::vector<Variation> variations = variationsOf(plan, settings);
+  for (const Variation& variation : variations) {
+    fs::create_directories(variation.plan.out);
+    writeFileAtomically(variation.plan.rig_file, rigWith(given.rig_xml, variation));
+    const auto experiment = readSimulated(variation.plan);
+    if (!experiment) return kExitBadInput;
+    std::printf("%s\n", variation.name().c_str());
+    if (const auto status = complete(variation.plan, *experiment)) return *status;
+  }
+  return plan.shards > 1 ? kExitOk : reportVariations(plan.out, variations, given);
+}
+
+int simulate(StudiesPlan plan, const std::string& shard, const std::vector<std::string>& varied) {
+  takeShard(shard, plan);
+  plan.experiment_file = fs::absolute(plan.experiment_file).string();
+  if (!plan.rig_file.empty()) plan.rig_file = fs::absolute(plan.rig_file).string();
+  const auto experiment = readSimulated(plan);
+  if (!experiment) return kExitBadInput;
+  if (!varied.empty()) return simulateVariations(plan, *experiment, varied);
+  if (const auto status = complete(plan, *experiment)) return *status;
   return plan.shards > 1 ? kExitOk : reportPower(plan, *experiment);
 }
 
@@ -69,6 +97,7 @@ int simulate(StudiesPlan plan, const std::string& shard) {
 void addSimulate(Command app, int& status) {
   auto plan = std::make_shared<StudiesPlan>();
   auto shard = std::make_shared<std::string>();
+  auto varied = std::make_shared<std::vector<std::string>>();
   Command command = app.command(
       "simulate", "Many studies with simulated subjects: results and power to expect before any person comes");
   command.option("EXPERIMENT", plan->experiment_file, "experiment file").required().existingFile();
@@ -79,8 +108,15 @@ void addSimulate(Command app, int& status) {
   command.option("--power", plan->power, "wanted power: the page says which tests reach it, and with how many subjects")
       .within(0.05, 1)
       .showDefault();
-  command.option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2").oneOf({"L0", "L1", "L2"});
+  Option level = command.option("--simulated", plan->level, "level of the simulated subjects: L0, L1 or L2")
+                     .oneOf({"L0", "L1", "L2"});
   command.option("--rig", plan->rig_file, "rig with simulated devices instead").existingFile();
+  command
+      .option("--vary", *varied,
+              "KEY=VALUE: simulate the studies again with this setting of every device of the rig, and compare "
+              "(repeatable)")
+      .oneValueEach()
+      .excludes(level);
   command.option("--jobs", plan->jobs, "sessions at once (default: one per processor)").positive();
   command.option("--shard", *shard,
                  "i/N: only every N-th session from the i-th, to share the work between machines; afterwards put all "
@@ -90,8 +126,11 @@ void addSimulate(Command app, int& status) {
   command.footer(
       "Exit status: 0 complete, 1 a session failed, 2 bad input, 130 Ctrl-C (the same command goes on).\n"
       "Example:  presa experiment simulate experiments/grip_slip/experiment.xml --simulated L1 --subjects 3 --seeds 20 "
-      "--out power");
-  command.action([plan, shard, &status] { status = simulate(*plan, *shard); });
+      "--out power\n"
+      "          presa experiment simulate experiments/grip_slip/experiment.xml --rig "
+      "experiments/grip_slip/rig_percro.xml "
+      "--vary without=encoders --vary without=friction --out hardware");
+  command.action([plan, shard, varied, &status] { status = simulate(*plan, *shard, *varied); });
 }
 
 }  // namespace presa

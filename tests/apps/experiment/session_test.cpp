@@ -214,6 +214,27 @@ TEST_F(SessionTest, SimulatedStudiesGoOnWithWhatIsThere) {
   EXPECT_THAT(output, HasSubstr("error[E951]"));
 }
 
+// The same studies with a setting of the rig's devices changed: each in a folder of its own, compared in one table.
+TEST_F(SessionTest, SimulatedStudiesCompareSettingsOfTheDevices) {
+  const std::string out = scratch.file("varied");
+  std::vector<std::string> arguments{"experiment", "simulate", kRub,       "--subjects", "1", "--seeds",
+                                     "1",          "--vary",   "mass=0.3", "--out",      out};
+  ASSERT_EQ(program(arguments), 0) << output;
+  EXPECT_THAT(output, HasSubstr("as the rig has it"));
+  EXPECT_THAT(output, HasSubstr("mass=0.3"));
+  EXPECT_THAT(contentsOf(out + "/variation-1/rig.xml"), HasSubstr("key=\"mass\" value=\"0.3\""));
+  EXPECT_THAT(contentsOf(out + "/variation-0/rig.xml"), Not(HasSubstr("key=\"mass\"")));
+  EXPECT_NE(essence(logOf(out + "/variation-0/study-001")), essence(logOf(out + "/variation-1/study-001")));
+  EXPECT_THAT(contentsOf(out + "/variations.csv"), HasSubstr("\"mass=0.3\",\"spearman_mu_felt_1\""));
+  EXPECT_THAT(contentsOf(out + "/variations.html"), HasSubstr("mass=0.3"));
+  arguments[8] = "mass";
+  EXPECT_EQ(program(arguments), 2);
+  EXPECT_THAT(output, HasSubstr("error[E954]"));
+  arguments[8] = "mas=0.3";
+  EXPECT_EQ(program(arguments), 2);
+  EXPECT_THAT(output, HasSubstr("error[E401]"));
+}
+
 TEST_F(SessionTest, ControlCKeepsWhatIsThere) {
   const std::string data = scratch.file("data");
   const Process process(runArguments(data), scratch.file("output"));
