@@ -1,13 +1,19 @@
 #include "apps/presa/device/calibrate.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/exit_status.h"
+#include "apps/common/terminal/text.h"
 #include "apps/presa/device/driver_symbol.h"
+#include "apps/presa/device/record_link.h"
 #include "apps/presa/device/rig_bases.h"
 #include "apps/presa/device/samples_file.h"
 #include "devices/percro_arm/calibration/calibration_plugin.h"
@@ -47,24 +53,77 @@ void tell(const RigBases& rig, const LinkedBases& fit, std::size_t samples) {
               fit.position_error * 1e3, fit.angle_error * 180 / std::numbers::pi);
 }
 
+/// The joint's centres from what the devices report.
+std::vector<LinkedSample> centres(std::vector<LinkedSample> samples, const CalibrationPlugin& driver, double link) {
+  for (LinkedSample& s : samples) s = {driver.centre(s.p_A, link), driver.centre(s.p_B, link)};
+  return samples;
+}
+
+/// Says what to do, and waits for Enter where somebody can press it.
+void ask(const std::string& what) {
+  std::fprintf(stderr, "%s\n", what.c_str());
+  if (isatty(STDIN_FILENO) != 1) return;
+  std::fputs("Press Enter to begin. ", stderr);
+  for (int c = 0; c != '\n' && c != EOF;) c = std::getchar();
+}
+
+/// The fit of one direction alone: friction and compliance of the device that is led pull it one way.
+void tellDirection(const std::string& leader, const LinkedBases& fit, const LinkedBases& all) {
+  if (fit.refusal.empty())
+    std::printf("  led by %s alone: %.3f mm and %.4f deg from the result of both\n", leader.c_str(),
+                distance(fit.X_AB, all.X_AB) * 1e3, degrees(fit.X_AB, all.X_AB));
+}
+
+/// Records each device led by the other into one file, and how many samples the first direction has; none when it was
+/// stopped, with what there is in the file.
+std::optional<std::size_t> recordBoth(const CalibrateOptions& options, const RigBases& rig, const Pose& truth) {
+  const Pose X_WB = options.rehearsal ? rig.base(0) * truth : rig.base(1);
+  std::vector<LinkedSample> samples;
+  std::size_t first = 0;
+  for (const int leader : {1, 0}) {
+    const std::string &leads = rig.role(leader), &led = rig.role(1 - leader);
+    LinkRecording recording{
+        .rig_xml = options.rehearsal ? rig.rehearsal(X_WB, leader, options.link, options.seed) : rig.resolved(),
+        .name = options.rig,
+        .seconds = options.seconds,
+        .realtime = !options.rehearsal,
+        .doing = leads + " leads " + led,
+        .roles = {rig.role(0), rig.role(1)},
+        .bases = {rig.base(0), X_WB}};
+    if (!options.rehearsal)
+      ask("Both devices are linked and give no force. Let go of the device of " + quote(led) + ", hold that of " +
+          quote(leads) + " and lead both\nslowly to and fro, up and down, left and right for " +
+          terminal::format("%.0f", options.seconds) + " s.");
+    const RecordedLink recorded = recordLink(recording);
+    samples.insert(samples.end(), recorded.samples.begin(), recorded.samples.end());
+    writeFileAtomically(options.record, samplesText(samples));
+    if (recorded.stopped) return std::nullopt;
+    if (leader == 1) first = samples.size();
+  }
+  std::printf("Samples: %s\n", options.record.c_str());
+  return first;
+}
+
 }  // namespace
 
 int calibrate(const CalibrateOptions& options) {
   const RigBases rig(options.rig);
   const auto& driver =
       driverTable<CalibrationPlugin>(kWhere, rig.driver(), kCalibrationSymbol, "cannot be calibrated by a link");
-  const bool rehearsal = options.samples.empty();
+  const bool records = !options.record.empty();
+  const bool rehearsal = records ? options.rehearsal : options.samples.empty();
   const Pose truth = misplaced(rig.base(0).inverse() * rig.base(1), options.seed);
+  if (rehearsal && driver.rehearse == nullptr)
+    refuse(471, kWhere, "driver " + quote(rig.driver()) + " has no model to rehearse with");
   std::vector<LinkedSample> samples;
-  if (rehearsal) {
-    if (driver.rehearse == nullptr)
-      refuse(471, kWhere, "driver " + quote(rig.driver()) + " has no model to rehearse with");
+  std::optional<std::size_t> first;  // samples of the first direction of a recording
+  if (rehearsal && !records) {
     samples = driver.rehearse(rig.base(0), truth, options.link, options.seed);
     if (samples.empty())
       refuse(476, options.rig, "the two devices cannot meet in the middle between them", "move their bases in the rig");
   } else {
-    samples = readSamples(options.samples);
-    for (LinkedSample& s : samples) s = {driver.centre(s.p_A, options.link), driver.centre(s.p_B, options.link)};
+    if (records && !(first = recordBoth(options, rig, truth))) return kExitInterrupted;
+    samples = centres(readSamples(records ? options.record : options.samples), driver, options.link);
   }
   const LinkedBases fit = fitBases(samples);
   if (!fit.refusal.empty()) {
@@ -72,10 +131,14 @@ int calibrate(const CalibrateOptions& options) {
     return kExitFault;
   }
   tell(rig, fit, samples.size());
+  if (first) {
+    const std::span<const LinkedSample> all(samples);
+    tellDirection(rig.role(1), fitBases(all.first(*first)), fit);
+    tellDirection(rig.role(0), fitBases(all.subspan(*first)), fit);
+  }
   if (rehearsal)
-    std::printf(
-        "  rehearsal with modelled devices, homed first: missed where it really stands by %.4f mm and %.5f deg\n",
-        distance(fit.X_AB, truth) * 1e3, degrees(fit.X_AB, truth));
+    std::printf("  rehearsal with modelled devices: missed where it really stands by %.4f mm and %.5f deg\n",
+                distance(fit.X_AB, truth) * 1e3, degrees(fit.X_AB, truth));
   if (options.out.empty()) return kExitOk;
   const std::string folder = std::filesystem::absolute(options.out).parent_path().string();
   std::error_code failed;

@@ -49,7 +49,7 @@ std::unique_ptr<xml::Document> load(const std::string& file) {
 
 RigBases::RigBases(const std::string& file) : file_(file) {
   Diagnostics diagnostics;
-  loadRig(file, diagnostics);
+  resolved_ = loadRig(file, diagnostics).resolved_xml;
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
   const auto document = load(file);
   const std::vector<Element> devices = document->root().children("device");
@@ -82,6 +82,20 @@ std::string RigBases::withSecondAt(const Pose& X_WB, const std::string& folder) 
   settingOf(second, "pos").setAttribute("value", text(X_WB.p));
   settingOf(second, "quat").setAttribute("value", text(X_WB.q));
   return document->text();
+}
+
+std::string RigBases::rehearsal(const Pose& X_WB, int leader, double link, std::uint64_t seed) const {
+  const auto set = [](const std::string& key, const std::string& value) {
+    return "<set key=\"" + key + "\" value=\"" + value + "\"/>";
+  };
+  std::string xml = "<rig version=\"1.0\" name=\"rehearsal\">";
+  for (int i = 0; i < 2; ++i) {
+    const Pose& base = i == 0 ? bases_[0] : X_WB;
+    xml += "<device role=\"" + roles_[i] + "\" driver=\"" + driver_ + "\">" + set("hand", "linking_hand") +
+           set("leads", roles_[leader]) + set("link", terminal::format("%.9g", link)) +
+           set("seed", std::to_string(seed)) + set("pos", text(base.p)) + set("quat", text(base.q)) + "</device>";
+  }
+  return xml + "</rig>";
 }
 
 }  // namespace presa::device

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -21,9 +22,13 @@ class RigBases {
   /// XML of the rig with this pose of the second device, for a file in this folder: paths in it are made relative to
   /// it.
   std::string withSecondAt(const Pose& X_WB, const std::string& folder) const;
+  /// The rig as it is, with absolute paths.
+  const std::string& resolved() const { return resolved_; }
+  /// XML of a rig of the same modelled devices, the second one at this pose, linked, and led by the hand linking_hand.
+  std::string rehearsal(const Pose& X_WB, int leader, double link, std::uint64_t seed) const;
 
  private:
-  std::string file_, driver_, roles_[2];
+  std::string file_, driver_, roles_[2], resolved_;
   Pose bases_[2];
 };
 
