@@ -8,6 +8,7 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/grasp_figures.h"
+#include "apps/common/grasp_loop.h"
 #include "apps/common/grasp_strength.h"
 #include "apps/common/joint_words.h"
 #include "apps/common/losses.h"
@@ -151,6 +152,16 @@ void addStrength(const std::optional<GraspStrength>& strength, Json& json) {
   json["min_grip_N"] = finite(strength->min_grip.at_most);
 }
 
+/// The body as a mass on the springs of the fingers that held it.
+void addLoop(const RunResult& result, const GraspFigures& figures, Json& json) {
+  json["natural_frequency_hz"] = json["explicit_min_mass_kg"] = nullptr;
+  if (!figures.carried) return;
+  const auto body = static_cast<std::size_t>(result.objects[figures.object].body);
+  const GraspLoop loop = graspLoop(*result.world, body, figures.fingers.size());
+  json["natural_frequency_hz"] = loop.naturalFrequency();
+  json["explicit_min_mass_kg"] = loop.explicitMinMass(1 / result.world->scene.rates.dynamics);
+}
+
 Json grasp(const RunResult& result, const GraspFigures& figures) {
   Json fingers = Json::array();
   for (const FingerGrasp& finger : figures.fingers) {
@@ -170,6 +181,7 @@ Json grasp(const RunResult& result, const GraspFigures& figures) {
                {"held_in_stick_s", figures.held_in_stick},
                {"turn", figures.turn ? turn(*figures.turn) : Json(nullptr)},
                {"slip_limit_N", figures.carried ? Json(figures.slip_limit) : Json(nullptr)}};
+  addLoop(result, figures, json);
   addStrength(graspStrength(result, figures), json);
   json["fingers"] = fingers;
   return json;

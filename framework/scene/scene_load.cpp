@@ -44,6 +44,7 @@ Scene loadDocument(xml::Document& document, const std::string& directory, const 
   document.validate(sceneSchema(), diagnostics);
   if (document.root().name() != sceneSchema().root().name) return scene;
   checkVersion(document.root(), "scene", kVersion, diagnostics);
+  resolveFrictionPresets(document.root(), diagnostics);
   checkScene(document.root(), diagnostics);
   checkSceneBus(document.root(), diagnostics);
   if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing

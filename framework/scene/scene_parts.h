@@ -29,6 +29,8 @@ std::string resolvePath(const std::string& path, const std::string& directory);
 /// Writes each override into the document; an unknown path is error E202.
 void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, const std::vector<Override>& overrides,
                     Diagnostics& diagnostics);
+/// Writes the coefficient of each <friction preset="…"> in its place; E236 beside a static one.
+void resolveFrictionPresets(const xml::Element& root, Diagnostics& diagnostics);
 /// Reads a resolved document without errors into plain data.
 Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
 /// Checks rules that a schema cannot express: references, and values that depend on each other (E2xx).

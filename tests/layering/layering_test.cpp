@@ -124,7 +124,7 @@ TEST(Layering, TheProgramHoldsNothingOfTheOtherUses) {
   const std::set<std::string> mapped = nameSpaces(std::filesystem::path(PRESA_BINARY_DIR) / "bin/presa");
   EXPECT_TRUE(mapped.contains("terminal")) << "the names of the program's functions were not read";
   for (const char* use :
-       {"temple", "experiment", "cost", "stability", "lectures", "faults", "psychophysics", "statistics"}) {
+       {"temple", "experiment", "cost", "stability", "lectures", "printed", "faults", "psychophysics", "statistics"}) {
     EXPECT_FALSE(mapped.contains(use)) << use;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <set>
 
 #include "apps/common/file_text.h"
@@ -85,6 +86,8 @@ std::vector<std::string> expectedSections(const Scene& scene) {
   if (fingers > 0) all.insert(all.end(), {"Position, grip force and contact state", "Friction", "Contact points"});
   if (free) all.push_back("Objects");
   if (!scene.joints.empty()) all.push_back("Joints");
+  if (std::filesystem::exists(source("config/scenes/printed/" + scene.name + ".xml")))
+    all.push_back("Printed and measured");
   all.insert(all.end(), {"Rates", "Faults and notes", "Provenance"});
   return all;
 }

@@ -9,6 +9,7 @@
 #include "apps/common/report/figures.h"
 #include "apps/common/report/joint_section.h"
 #include "apps/common/report/page.h"
+#include "apps/common/report/printed_section.h"
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/report/tables.h"
 #include "apps/common/verdict.h"
@@ -93,6 +94,7 @@ std::string reportHtml(const RunResult& result) {
   if (!result.contact_points.empty()) out += "<h2>Contact points</h2>\n" + html::contactTable(result);
   if (!result.objects.empty()) out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += html::jointSection(result.joints);
+  out += html::printedSection(result);
   out += "<h2>Rates</h2>\n" + html::rateTable(result);
   out += "<h2>Faults and notes</h2>\n" + html::faultsAndNotes(result);
   out += filesSection(result) + screenshotSection(result);

@@ -175,6 +175,7 @@ std::string facetAt(const FacetFigure& figure, const Axes& axes, std::size_t row
     if (figure.x_names.empty()) out += lineFromTo(x(value), top, x(value), bottom, "grid");
     if (!last) continue;
     const std::string text = !figure.x_names.empty()   ? escape(figure.x_names[i])
+                             : figure.x_log            ? number(std::pow(10, value), 4)
                              : !figure.x_ticks.empty() ? number(value, 4)
                                                        : tickText(value, x_step);
     out += textAt(x(value), bottom + 16, "tick xtick", text);
@@ -192,6 +193,21 @@ std::string facetAt(const FacetFigure& figure, const Axes& axes, std::size_t row
     out += "<text class=\"phase\" transform=\"translate(" + px(right + 14) + " " + px(0.5 * (top + bottom)) +
            ") rotate(90)\">" + escape(figure.rows[row]) + "</text>\n";
   return out;
+}
+
+/// The figure with the logarithms of its x in their place.
+FacetFigure withLogOfX(FacetFigure figure) {
+  for (Facet& facet : figure.facets) {
+    for (Layer& layer : facet.layers) {
+      std::erase_if(layer.points, [](const FacetPoint& point) { return !(point.x > 0); });
+      for (FacetPoint& point : layer.points) {
+        for (double* x : {&point.x, &point.left, &point.right}) *x = std::log10(*x);
+      }
+    }
+  }
+  std::erase_if(figure.x_ticks, [](double tick) { return !(tick > 0); });
+  for (double& tick : figure.x_ticks) tick = std::log10(tick);
+  return figure;
 }
 
 Csv csvOf(const FacetFigure& figure) {
@@ -212,7 +228,8 @@ Csv csvOf(const FacetFigure& figure) {
 
 }  // namespace
 
-std::string render(const FacetFigure& figure) {
+std::string render(const FacetFigure& asked) {
+  const FacetFigure figure = asked.x_log ? withLogOfX(asked) : asked;
   const bool single = figure.columns.size() * figure.rows.size() == 1;
   const double width = single ? 760 : 1080;                                                  // of the figure
   const double height = figure.facet_height > 0 ? figure.facet_height : single ? 360 : 148;  // of one facet
@@ -236,7 +253,7 @@ std::string render(const FacetFigure& figure) {
   out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (first_top + bottom)) + ") rotate(-90)\">" +
          escape(figure.y_label) + "</text>\n</svg>";
   return withSaveLinks(single ? "plot single" : "plot", out, "<div class=\"readout\" hidden></div>", figure.title,
-                       csvOf(figure));
+                       csvOf(asked));
 }
 
 }  // namespace presa::svg

@@ -53,6 +53,7 @@ struct FacetFigure {
   bool y_from_zero = true, x_from_zero = false;
   double y_max = FacetPoint::kNone;  ///< value that the y axis must include
   double facet_height = 0;           ///< [px]; 0: default
+  bool x_log = false;                ///< logarithmic; points at x <= 0 are left out. Needs x_ticks
   bool equal_scales = false;         ///< same scale on both axes: one axis extends beyond its data
 };
 

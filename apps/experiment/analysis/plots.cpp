@@ -157,6 +157,7 @@ Section section(const wanted::MarginPlot& what, const Context& context) {
                      {""},
                      std::vector<svg::Facet>(shapes.size())};
   figure.x_ticks = ticksAt(trials, what.x, trials.complete({what.x}));
+  figure.x_log = what.log_x;
   Table table{"margins_" + what.grip, {}, {}, true};
   for (const std::string& name : by) table.columns.push_back({name, context.unitOf(name)});
   table.columns.insert(table.columns.end(), {{"n", "", "%.0f"}, {"margin_median", "%", "%.1f"}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/common/grasp_loop.h"
 #include "apps/common/terminal/text.h"
 #include "apps/presa/check/overlap.h"
 #include "apps/presa/explain/module_times.h"
@@ -13,7 +14,7 @@
 namespace presa::check {
 namespace {
 
-enum StartWarningCode { kOverlap = 241, kHugeMesh = 242, kFarFinger = 243, kSlowMesh = 244 };
+enum StartWarningCode { kOverlap = 241, kHugeMesh = 242, kFarFinger = 243, kSlowMesh = 244, kExplicitGrasp = 245 };
 
 using terminal::format;
 
@@ -122,12 +123,37 @@ std::vector<std::pair<std::size_t, std::size_t>> meshBodies(const World& world) 
   return found;
 }
 
+/// The slowest rate of the dynamics at which a mass is enough, or nothing where not even the haptic rate is.
+std::string fasterDynamics(const Scene& scene, double mass, double needed) {
+  const double ticks = std::floor(scene.rates.haptic / (scene.rates.dynamics * std::sqrt(needed / mass)));
+  return ticks < 1 ? "" : format(", or <rates dynamics=\"%.6g\">", scene.rates.haptic / ticks);
+}
+
 }  // namespace
 
 void warnOfStart(const Loaded& loaded, Diagnostics& diagnostics) {
   warnOfOverlaps(*loaded.world, diagnostics);
   warnOfMeshes(*loaded.world, diagnostics);
   warnOfFingers(loaded, diagnostics);
+  warnOfExplicitGrasps(*loaded.world, diagnostics);
+}
+
+void warnOfExplicitGrasps(const World& world, Diagnostics& diagnostics) {
+  const Scene& scene = world.scene;
+  if (scene.dynamics.coupling != DynamicsSettings::Coupling::kExplicit) return;
+  const double period = 1 / scene.rates.dynamics;
+  for (const GraspLoop& loop : graspLoops(world)) {
+    const double needed = kExplicitMargin * loop.explicitMinMass(period);
+    if (loop.mass >= needed) continue;
+    const Body& body = scene.bodies[loop.body];
+    diagnostics.warning(
+        kExplicitGrasp, body.where,
+        format("%zu fingers of %.4g N/m on ", loop.fingers, loop.stiffness) + quote(body.name) +
+            format(" of %.4g kg may shake it out of their grasp: coupling=\"explicit\" at %.4g Hz needs %.4g kg "
+                   "(n K h^2 / 4 = %.4g kg, and a margin of %.2g)",
+                   loop.mass, scene.rates.dynamics, needed, loop.explicitMinMass(period), kExplicitMargin),
+        "coupling=\"soft\" holds it" + fasterDynamics(scene, loop.mass, needed));
+  }
 }
 
 void warnOfSlowMeshes(const World& world, double step, Diagnostics& diagnostics) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/findings_json.h"
+#include "apps/common/printed_figures.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/terminal/waiting.h"
 #include "apps/presa/check/ask_experiment.h"
@@ -53,6 +54,7 @@ Checked checkScene(const std::string& file, const CheckArguments& arguments) {
   RunOptions options;
   options.bound_stiffness = true;
   Loaded loaded = loadWorld({file, arguments.rig, arguments.sets}, options, diagnostics);
+  printedOf(file, diagnostics);
   Checked checked;
   const std::shared_ptr<const World> world = loaded.world;
   if (!diagnostics.hasErrors()) {

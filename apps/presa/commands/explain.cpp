@@ -3,6 +3,7 @@
 
 #include "apps/common/options/bus_options.h"
 #include "apps/common/scratch_folder.h"
+#include "apps/presa/check/start_warnings.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/explain/cost.h"
 #include "apps/presa/explain/description.h"
@@ -46,6 +47,7 @@ int explain(const ExplainArguments& arguments) {
   const ScratchFolder scratch;
   Diagnostics diagnostics;
   Loaded loaded = loadWorld(arguments.inputs, optionsOf(arguments, scratch), diagnostics);
+  if (!diagnostics.hasErrors()) check::warnOfExplicitGrasps(*loaded.world, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
   if (arguments.grasp && arguments.format == "dot") {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "apps/common/grasp_loop.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/scene/decompositions.h"
 #include "framework/scene/joints/joint_words.h"
@@ -54,6 +55,17 @@ json describe(const Connection& connection) {
   return out;
 }
 
+void describeGrasps(const World& world, json& out) {
+  for (const GraspLoop& loop : graspLoops(world)) {
+    out["grasps"].push_back({{"body", world.scene.bodies[loop.body].name},
+                             {"fingers", loop.fingers},
+                             {"stiffness_N_m", loop.stiffness},
+                             {"mass_kg", loop.mass},
+                             {"natural_frequency_hz", loop.naturalFrequency()},
+                             {"explicit_min_mass_kg", loop.explicitMinMass(1 / world.scene.rates.dynamics)}});
+  }
+}
+
 }  // namespace
 
 std::set<std::string> mappedLibraries() {
@@ -95,6 +107,7 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   for (const DecomposedMesh& mesh : decompositionsOf(*session.world())) out["decomposed"].push_back(textOf(mesh));
   for (const Joint& joint : session.world()->scene.joints)
     out["joints"].push_back({{"name", joint.name}, {"what", describeJoint(session.world()->scene, joint)}});
+  describeGrasps(*session.world(), out);
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},
                                 {"plugin", library.starts_with("presa_")},

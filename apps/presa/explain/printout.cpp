@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "apps/common/terminal/text.h"
 
@@ -82,6 +84,25 @@ void libraries(std::string& out, const json& run, bool plugins, const char* need
   out += row + '\n';
 }
 
+/// The highest frequencies first; a heap of bodies has a few lines, too.
+void grasps(std::string& out, const json& run) {
+  constexpr std::size_t kShown = 8;
+  std::vector<json> all = run.value("grasps", std::vector<json>());
+  if (all.empty()) return;
+  std::ranges::stable_sort(all, std::ranges::greater(),
+                           [](const json& grasp) { return grasp["natural_frequency_hz"].get<double>(); });
+  out += "\nGrasps: a free body on the fingers' springs, its natural frequency, min mass for explicit coupling\n";
+  for (std::size_t i = 0; i < std::min(all.size(), kShown); ++i) {
+    const json& grasp = all[i];
+    const auto number = [&](const char* key) { return grasp[key].get<double>(); };
+    out += "  " + padded(text(grasp["body"]), 22) +
+           format("%zu fingers of %.4g N/m on %.4g kg: %.1f Hz, %.3g kg\n", grasp["fingers"].get<std::size_t>(),
+                  number("stiffness_N_m"), number("mass_kg"), number("natural_frequency_hz"),
+                  number("explicit_min_mass_kg"));
+  }
+  if (all.size() > kShown) out += format("  and %zu more, with lower ones\n", all.size() - kShown);
+}
+
 }  // namespace
 
 std::string explainText(const json& run) {
@@ -99,6 +120,7 @@ std::string explainText(const json& run) {
   if (run.contains("joints")) out += "\nJoints\n";
   for (const json& joint : run.value("joints", json::array()))
     out += "  " + padded(text(joint["name"]), 22) + text(joint["what"]) + '\n';
+  grasps(out, run);
   out += "\nValues that cross threads\n";
   crossings(out, run);
   out += "\nLeft out\n";

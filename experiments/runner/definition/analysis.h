@@ -60,6 +60,7 @@ struct MeansPlot {
 };
 struct MarginPlot {
   std::string grip, slip, x, color, shape;
+  bool log_x = false;  ///< logarithmic axis of x
 };
 struct Scatter {
   std::string x, y, color;

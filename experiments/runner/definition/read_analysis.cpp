@@ -161,8 +161,8 @@ wanted::Any read(const std::string& kind, Reader& in) {
     return wanted::MeansPlot{in.number("y"),      in.number("x"),    in.group("rows"),
                              in.group("columns"), in.number("line"), in.text("interval") == "within_subject"};
   if (kind == "margins")
-    return wanted::MarginPlot{in.number("grip"), in.number("slip"), in.number("x"), in.group("color"),
-                              in.group("shape")};
+    return wanted::MarginPlot{in.number("grip"), in.number("slip"), in.number("x"),
+                              in.group("color"), in.group("shape"), in.text("log") == "x"};
   if (kind == "scatter")
     return wanted::Scatter{in.number("x"), in.number("y"), in.group("color"), in.isTrue("diagonal")};
   return wanted::TimeCourse{in.part("finger", "fn", "device"), in.part("body", "lift", "free body"), in.text("subject"),

@@ -71,6 +71,29 @@ TEST_F(FigureTest, MarginsOverMass) {
   }
 }
 
+/// Distance of the tick at 0.4 kg from that at 0.2, over that of 0.2 from 0.1.
+double tickRatio(const std::string& svg) {
+  std::vector<double> at;
+  for (const char* mass : {"0.1", "0.2", "0.4"}) {
+    const std::regex tick("class=\"tick xtick\" x=\"([0-9.]+)\"[^>]*>" + std::string(mass) + "<");
+    std::smatch found;
+    if (!std::regex_search(svg, found, tick)) return 0;
+    at.push_back(std::stod(found[1]));
+  }
+  return (at[2] - at[1]) / (at[1] - at[0]);
+}
+
+// Masses that double lie at equal distances on a logarithmic axis, and 0.1, 0.2, 0.4 do not on a linear one. Bound: tenths
+// of a pixel of some 100.
+TEST_F(FigureTest, MarginsOverALogarithmicMass) {
+  const char* text = R"(<margins grip="F_grip" slip="F_slip" x="mass" color="stiffness" shape="mu_s" log="x"/>)";
+  EXPECT_NEAR(tickRatio(figure(text).figure), 1, 0.01);
+}
+TEST_F(FigureTest, MarginsOverALinearMass) {
+  const char* text = R"(<margins grip="F_grip" slip="F_slip" x="mass" color="stiffness" shape="mu_s"/>)";
+  EXPECT_NEAR(tickRatio(figure(text).figure), 2, 0.02);
+}
+
 // As in figure 17: a symbol per trial, none below the diagonal.
 TEST_F(FigureTest, GripOverSlipForce) {
   const Section section = figure(R"(<scatter x="F_slip" y="F_grip" color="stiffness"/>)");

@@ -51,11 +51,17 @@ INSTANTIATE_TEST_SUITE_P(Of, Impulse,
                            return name;
                          });
 
+/// The system as printed exchanges forces explicitly, held for a step; printed_test has its figures.
+bool isAsPrinted(const std::filesystem::path& scene) {
+  return std::filesystem::exists(scene.parent_path() / "printed" / scene.filename());
+}
+
 // Nobody has to remember a new scene here.
 TEST(Impulse, RenderedIsGivenInEverySceneThatPeopleStart) {
   std::size_t compared = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kSource + "/config/scenes"))
-    if (entry.path().extension() == ".xml" && expectWithinBound(entry.path()) > 0) ++compared;
+    if (entry.path().extension() == ".xml" && !isAsPrinted(entry.path()) && expectWithinBound(entry.path()) > 0)
+      ++compared;
   EXPECT_GE(compared, 6U);
 }
 

@@ -208,6 +208,26 @@ TEST(SceneLoad, OneFrictionCoefficientIsBoth) {
   EXPECT_EQ(changed->mu_dynamic, 0.3);
 }
 
+// The coefficients that section 3.6.1 of the PERCRO paper quotes, typed in here.
+TEST(SceneLoad, AFrictionPresetIsAStaticCoefficient) {
+  const auto with = [](const std::string& friction, const std::vector<Override>& overrides = {}) {
+    return load(edited(kScene, "<friction static=\"0.8\" dynamic=\"0.6\"/>", friction), overrides);
+  };
+  for (const auto& [name, coefficient] : {std::pair{"rayon", 0.42}, {"suede", 0.61}, {"sandpaper", 1.67}}) {
+    const Scene scene = with(std::string("<friction preset=\"") + name + "\" dynamic=\"0.4\"/>");
+    EXPECT_EQ(scene.materials[0].friction_static, coefficient);
+    EXPECT_EQ(scene.materials[0].friction_dynamic, 0.4);
+    EXPECT_EQ(scene.resolved_xml.find("preset"), std::string::npos) << "a recording has the number";
+  }
+  EXPECT_EQ(with("<friction preset=\"rayon\"/>").materials[0].friction_dynamic, 0.42);
+  EXPECT_EQ(
+      with("<friction preset=\"rayon\"/>", {{"material/rubber/friction/static", "0.5"}}).materials[0].friction_static,
+      0.5);
+  EXPECT_EQ(
+      with("<friction static=\"0.5\"/>", {{"material/rubber/friction/preset", "suede"}}).materials[0].friction_static,
+      0.61);
+}
+
 // Intrinsic x-y-z: R = Rx Ry Rz, compared with the product of the three textbook matrices.
 TEST(SceneLoad, EulerAnglesTurnAboutXThenNewYThenNewZ) {
   std::mt19937_64 random(7);
