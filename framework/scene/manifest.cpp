@@ -208,7 +208,9 @@ void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& 
 /// `gives` says what others find the plug-in by.
 void checkGift(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
   if (manifest.gives.empty()) return;
-  const PluginKind giver = manifest.hasProxy() ? PluginKind::kRenderer : PluginKind::kModule;
+  const PluginKind giver = manifest.hasProxy()    ? PluginKind::kRenderer
+                           : manifest.hasFigure() ? PluginKind::kDevice
+                                                  : PluginKind::kModule;
   if (manifest.kind == giver) return;
   diagnostics.error(
       kAgainstKind, root.where("gives"),
