@@ -1,6 +1,7 @@
 #include "modules/view_osg/device_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <osg/BlendFunc>
@@ -15,10 +16,12 @@
 namespace presa::view {
 namespace {
 
-const Vec3 kCold(0.03, 0.16, 0.62), kWarm(0.95, 0.62, 0.02), kHot(0.85, 0.02, 0.01), kUnknown(0.25, 0.25, 0.25);
+const std::array<Vec3, 4> kHeat{Vec3(0.03, 0.16, 0.62), Vec3(0.02, 0.48, 0.34), Vec3(0.95, 0.62, 0.02),
+                                Vec3(0.85, 0.02, 0.01)};
+const Vec3 kUnknown(0.25, 0.25, 0.25);
 const Vec3 kLineColor(0.95, 0.10, 0.55);
-constexpr double kLineRadius = 0.0028;  // [m]
-constexpr int kAround = 10;             // pieces of its section
+constexpr double kLineRadius = 0.004;  // [m]
+constexpr int kAround = 10;            // pieces of its section
 constexpr double kHeatShades = 50;
 
 /// The centre line as a round bar, in world coordinates.
@@ -56,8 +59,9 @@ osg::ref_ptr<osg::Node> paleWhereHidden(osg::Group* solid) {
 }  // namespace
 
 Vec3 heatColor(double heat) {
-  const double h = std::clamp(heat, 0.0, 1.0);
-  return h < 0.5 ? Vec3(kCold + 2 * h * (kWarm - kCold)) : Vec3(kWarm + (2 * h - 1) * (kHot - kWarm));
+  const double place = std::clamp(heat, 0.0, 1.0) * (kHeat.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), kHeat.size() - 2);
+  return kHeat[below] + (place - static_cast<double>(below)) * (kHeat[below + 1] - kHeat[below]);
 }
 
 DeviceFigures::DeviceFigures() {
@@ -94,7 +98,6 @@ std::unique_ptr<DeviceFigures> DeviceFigures::of(const World& world) {
     all->addLine(figure);
     all->figures_.push_back(std::move(figure));
   }
-  if (all) all->setQuick(false);
   return all;
 }
 
@@ -198,6 +201,11 @@ void DeviceFigures::color(Figure& figure, bool by_heat) {
     (*colors)[0] = osg::Vec4(osg::Vec3(toOsg(color)), 1);
     colors->dirty();
   }
+}
+
+double DeviceFigures::reachFrom(const Vec3& center) const {
+  const osg::BoundingSphere bound = root_->getBound();
+  return bound.valid() ? (bound.center() - osg::Vec3(toOsg(center))).length() + bound.radius() : 0;
 }
 
 void DeviceFigures::appendAppearance(std::vector<double>& appearance) const {

@@ -16,14 +16,15 @@ namespace presa::view {
 
 inline constexpr double kDeflectionScale = 100;  ///< deflections are drawn this many times as large
 
-/// Colour of a motor at this heat, 1 at its limit: blue, yellow, red. Linear RGB.
+/// Colour of a motor at this heat, 1 at its limit: blue, green, yellow, red. Linear RGB.
 Vec3 heatColor(double heat);
 
 /// The devices of the rig whose drivers say what they look like, placed by what they report. On demand the deflected
 /// centre line of each one's structure, and the heat of its motors as their colour.
 class DeviceFigures {
  public:
-  /// Loads those drivers, and only those (their manifests say it). Null without one. Throws InputError.
+  /// Loads those drivers, and only those (their manifests say it). Null without one; else without shapes until
+  /// setQuick(). Throws InputError.
   static std::unique_ptr<DeviceFigures> of(const World& world);
 
   osg::Group* root() { return root_; }
@@ -36,6 +37,8 @@ class DeviceFigures {
 
   /// Whether the device of that finger has a figure.
   bool has(std::size_t finger) const;
+  /// Radius of a ball about this point that holds all of them [m].
+  double reachFrom(const Vec3& center) const;
   /// What the colours depend on, coarsely.
   void appendAppearance(std::vector<double>& appearance) const;
 

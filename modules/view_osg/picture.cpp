@@ -224,8 +224,9 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   joints_.show(parts[ShownPart::kJoints], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius))
-    watch_->changeAll();
+  double lit = (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius;
+  if (devices_ && !quick_ && parts[ShownPart::kDevices]) lit = std::max(lit, devices_->reachFrom(focus.center));
+  if (lighting_.setFocus(focus.center, lit)) watch_->changeAll();
   lighting_.beginFrame(changed(frame, fingers, parts, focus.radius));
 }
 

@@ -25,6 +25,8 @@ class ShownDevices {
   void show(const ShownParts& parts, const ViewFrame& frame, float top);
   /// A finger is without its pen in a device that is shown: the device shows how it is turned.
   void takePens(const ShownParts& parts, std::vector<FingerView>& fingers) const;
+  /// Radius of a ball about this point that holds all of them [m].
+  double reachFrom(const Vec3& center) const { return figures_->reachFrom(center); }
   void appendAppearance(std::vector<double>& appearance) const { figures_->appendAppearance(appearance); }
 
  private:
