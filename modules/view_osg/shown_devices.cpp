@@ -1,5 +1,7 @@
 #include "modules/view_osg/shown_devices.h"
 
+#include "modules/view_osg/placed_nodes.h"
+
 namespace presa::view {
 namespace {
 
@@ -8,7 +10,15 @@ constexpr float kApart = 10;  // of two panels [lines]
 }  // namespace
 
 ShownDevices::ShownDevices(std::unique_ptr<DeviceFigures> figures, osg::Group& right, const Ink& ink)
-    : figures_(std::move(figures)), right_(right), ink_(ink) {}
+    : figures_(std::move(figures)), right_(right), ink_(ink) {
+  casters_->addChild(figures_->root());
+}
+
+// A quick light ends near the subject and would cut their shadows off.
+void ShownDevices::setQuick(bool quick) {
+  figures_->setQuick(quick);
+  setShown(*casters_, !quick);
+}
 
 std::unique_ptr<ShownDevices> ShownDevices::of(const World& world, osg::Group& space, osg::Group& casters,
                                                osg::Group& right, const Ink& ink) {
@@ -16,8 +26,9 @@ std::unique_ptr<ShownDevices> ShownDevices::of(const World& world, osg::Group& s
   if (!figures) return nullptr;
   space.addChild(figures->root());
   space.addChild(figures->lines());
-  casters.addChild(figures->root());
-  return std::unique_ptr<ShownDevices>(new ShownDevices(std::move(figures), right, ink));
+  std::unique_ptr<ShownDevices> all(new ShownDevices(std::move(figures), right, ink));
+  casters.addChild(all->casters_);
+  return all;
 }
 
 void ShownDevices::takePens(const ShownParts& parts, std::vector<FingerView>& fingers) const {

@@ -19,7 +19,7 @@ class ShownDevices {
   static std::unique_ptr<ShownDevices> of(const World& world, osg::Group& space, osg::Group& casters, osg::Group& right,
                                           const Ink& ink);
 
-  void setQuick(bool quick) { figures_->setQuick(quick); }
+  void setQuick(bool quick);
   void follow(const ViewFrame& frame) { figures_->follow(frame); }
   /// `top`: upper edge of the panels.
   void show(const ShownParts& parts, const ViewFrame& frame, float top);
@@ -34,6 +34,7 @@ class ShownDevices {
   float showPanel(std::optional<DevicePanel>& panel, DevicePanel::Of what, bool shown, float top);
 
   std::unique_ptr<DeviceFigures> figures_;
+  osg::ref_ptr<osg::Group> casters_ = new osg::Group;
   osg::Group& right_;
   const Ink ink_;
   std::optional<DevicePanel> deflections_, heats_;
