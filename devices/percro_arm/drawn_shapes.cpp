@@ -7,8 +7,8 @@ namespace presa::percro {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kPieces = 64;   // of a whole turn
-constexpr int kSection = 14;  // of a round section
+constexpr int kPieces = 48;   // of a whole turn
+constexpr int kSection = 10;  // of a round section
 
 }  // namespace
 

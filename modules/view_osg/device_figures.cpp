@@ -23,6 +23,7 @@ const Vec3 kLineColor(0.95, 0.10, 0.55);
 constexpr double kLineRadius = 0.004;  // [m]
 constexpr int kAround = 10;            // pieces of its section
 constexpr double kHeatShades = 50;
+constexpr Roundness kFineFigure{40, 8}, kQuickFigure{24, 6};  ///< of parts of a few centimetres
 
 /// The centre line as a round bar, in world coordinates.
 ShadedMesh barAlong(const std::vector<Vec3>& line) {
@@ -124,7 +125,7 @@ void DeviceFigures::makeShapes(Figure& figure, bool quick) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     osg::ref_ptr<osg::Group> shapes = new osg::Group;
     for (const FigureShape& shape : parts[i].shapes) {
-      const auto surface = surfaceOf(shape.shape, shape.mesh.get(), shape.color, quick ? kQuick : kFine);
+      const auto surface = surfaceOf(shape.shape, shape.mesh.get(), shape.color, quick ? kQuickFigure : kFineFigure);
       if (!surface) continue;
       osg::ref_ptr<osg::MatrixTransform> X_PG = new osg::MatrixTransform(toOsg(shape.X_PG));
       X_PG->addChild(surface);

@@ -127,6 +127,44 @@ TEST(ShownDevices, AParticipantDoesNotSeeThem) {
   EXPECT_EQ(differentPixels(PngPicture(run.options.screenshot), PngPicture(bare.options.screenshot)), 0);
 }
 
+// The barrel slides out and turns, the line bends. 24 codes as in retained_test.
+TEST(ShownDevices, AFilmEqualsPicturesDrawnAnew) {
+  const auto film = [](const std::string& name, int first, int last) {
+    const std::string folder = tempFile(name + std::to_string(first));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    PinchRun run = runWithArm("", {"no-visual", "compliance", "heat"});
+    run.options.screenshots = folder;
+    run.options.screenshot_every = 0.02;
+    run.options.picture.width = 640, run.options.picture.height = 360;
+    run.options.picture.camera = CameraPlace{{-0.2, -1.2, 0.5}, {-0.4, 0, 0.1}};
+    view::ViewModule module(run.world, run.options);
+    Feed feed(module);
+    module.start();
+    for (int i = first; i <= last; ++i) {
+      PinchStates states = statesAt(run, {-0.15 + 0.03 * i, 0.02 * i, 0.1 - 0.02 * i});
+      states.forces.f_H_W[0] = Vec3(0, 0, -0.3 * i);
+      feed.publish(states, 0.04 * i);
+      module.step({static_cast<std::uint64_t>(i), 0.04 * i, 0.04});
+    }
+    module.stop();
+    return folder;
+  };
+  const std::string whole = film("film", 0, 6);
+  for (const int frame : {0, 3, 6}) {
+    std::array<char, 32> name;
+    std::snprintf(name.data(), name.size(), "/%09.3f.png", 0.04 * frame);
+    const PngPicture kept(whole + name.data()), anew(film("alone", frame, frame) + name.data());
+    int different = 0;
+    for (int y = 0; y < kept.height(); ++y)
+      for (int x = 0; x < kept.width(); ++x) {
+        const Color a = kept.at(x, y), b = anew.at(x, y);
+        different += std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > 24;
+      }
+    EXPECT_LT(different, 20) << "frame " << frame;
+  }
+}
+
 view::ViewFrame frameOf(const PinchStates& states, double time) {
   view::ViewFrame frame;
   frame.time = time;
