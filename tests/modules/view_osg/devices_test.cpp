@@ -133,7 +133,7 @@ TEST(ShownDevices, AFilmEqualsPicturesDrawnAnew) {
     const std::string folder = tempFile(name + std::to_string(first));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
-    PinchRun run = runWithArm("", {"no-visual", "compliance", "heat"});
+    PinchRun run = runWithArm("", {"no-visual", "compliance"});
     run.options.screenshots = folder;
     run.options.screenshot_every = 0.02;
     run.options.picture.width = 640, run.options.picture.height = 360;
