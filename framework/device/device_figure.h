@@ -71,6 +71,9 @@ struct FigurePlugin {
 };
 inline constexpr const char* kFigureSymbol = "presaDeviceFigure";
 
+/// The figure of this device; null where its driver has none, which is then not loaded. Throws InputError as pluginTable.
+std::unique_ptr<DeviceFigure> figureOf(const DeviceBinding& binding);
+
 }  // namespace presa
 
 #define PRESA_DEVICE_FIGURE(table) \

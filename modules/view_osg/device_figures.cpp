@@ -7,7 +7,6 @@
 #include <osg/BlendFunc>
 #include <osg/Depth>
 
-#include "framework/scene/manifest.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/placed_nodes.h"
 #include "modules/view_osg/scene_nodes.h"
@@ -81,10 +80,8 @@ std::unique_ptr<DeviceFigures> DeviceFigures::of(const World& world) {
     const std::string& role = world.scene.devices[f].role;
     const auto binding = std::ranges::find(world.rig.devices, role, &DeviceBinding::role);
     if (binding == world.rig.devices.end()) continue;
-    const Manifest* manifest = findManifest(binding->driver);
-    if (manifest == nullptr || !manifest->hasFigure()) continue;
     Figure figure{.finger = f, .role = role};
-    figure.drawn = pluginTable<FigurePlugin>(binding->driver, kFigureSymbol).create(*binding);
+    figure.drawn = figureOf(*binding);
     if (!figure.drawn) continue;
     if (!all) all.reset(new DeviceFigures);
     if (binding->frame != kWorldFrame) {

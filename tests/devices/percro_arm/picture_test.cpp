@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <string>
 
+#include "apps/presa/replay_page/figures.h"
+#include "devices/percro_arm/drawn_parts.h"
+#include "framework/session/load_world.h"
 #include "tests/apps/presa/support.h"
 #include "tests/support/png_picture.h"
 
@@ -66,6 +70,36 @@ TEST(PercroPicture, AReplayDrawsTheArmsOfItsRun) {
   const std::string replay = "replay " + record;
   EXPECT_LT(differentPixels(run, pictureOf(replay, "replay.png", " --screenshot-at 3.009 --show compliance")), 20);
   EXPECT_GT(differentPixels(run, pictureOf(replay, "early.png", " --screenshot-at 0.5 --show compliance")), 500);
+}
+
+// Its page holds the pose of each part at each keyframe: the inner tube ends at the recorded fingertip.
+TEST(PercroPicture, ThePageOfARecordingHasTheArms) {
+  const std::string record = scratch("page.h5"), page = scratch("page.html");
+  ASSERT_EQ(presa(runWith("pinch_cube_percro.xml") + " --for 3 --record " + record).status, 0);
+  const Outcome written = presa("replay " + record + " --page " + page);
+  ASSERT_EQ(written.status, 0) << written.err;
+  const Recording recording = recordPlugin().read(record);
+  const RecordedSamples samples = recordPlugin().samples(record);
+  Diagnostics diagnostics;
+  const Loaded loaded =
+      loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, {}, diagnostics);
+  ASSERT_TRUE(loaded.world) << diagnostics.text();
+  const replay_page::PageFigures figures = replay_page::figuresOf(loaded.world->rig, samples);
+  ASSERT_EQ(figures.size(), 2u);
+  EXPECT_EQ(replay_page::partCount(figures), 2u * percro::kDrawnParts);
+  const std::vector<std::size_t> rows{0, 1000, 2000, samples.time.size() - 1};
+  for (const replay_page::PageFigure& figure : figures) {
+    const auto motion = replay_page::motionOf(figure, samples, rows);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto at = [&](const char* column) { return samples.fingers[figure.finger].values(column)[rows[k]]; };
+      const Vec3 p_WH(at("p_WH_x"), at("p_WH_y"), at("p_WH_z"));
+      EXPECT_LT((motion[percro::kInnerTube][k].p - p_WH).norm(), 1e-12);
+      EXPECT_LT((motion[percro::kBase][k].p - motion[percro::kBase][0].p).norm(), 1e-15);
+    }
+  }
+  std::ifstream in(page);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("\"name\":\"inner tube\""), std::string::npos);
 }
 
 }  // namespace
