@@ -8,6 +8,7 @@
 
 #include "apps/presa/replay_page/figures.h"
 #include "devices/percro_arm/drawn_parts.h"
+#include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
 #include "tests/apps/presa/support.h"
 #include "tests/support/png_picture.h"
