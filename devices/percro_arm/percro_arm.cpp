@@ -9,6 +9,7 @@
 #include "devices/hand/worn_device.h"
 #include "devices/percro_arm/calibration/calibration_plugin.h"
 #include "devices/percro_arm/characterise.h"
+#include "devices/percro_arm/drawn_arm.h"
 #include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/properties.h"
 #include "devices/percro_arm/switched_on.h"
@@ -204,6 +205,8 @@ std::vector<LinkedSample> rehearse(const Pose& X_WA, const Pose& X_AB, double li
 
 const CalibrationPlugin kCalibration{.centre = percro::linkCentre, .rehearse = rehearse};
 
+const FigurePlugin kFigure{.create = percro::makeDrawnArm};
+
 const CharacterisationPlugin kCharacterisation{.make = [] { return percro::characterise(percro::paperArm()); }};
 
 }  // namespace
@@ -212,3 +215,4 @@ const CharacterisationPlugin kCharacterisation{.make = [] { return percro::chara
 PRESA_DEVICE_PLUGIN(presa::kPlugin)
 PRESA_DEVICE_CHARACTERISATION(presa::kCharacterisation)
 PRESA_DEVICE_CALIBRATION(presa::kCalibration)
+PRESA_DEVICE_FIGURE(presa::kFigure)

@@ -209,9 +209,10 @@ void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& 
 /// `gives` says what others find the plug-in by.
 void checkGift(const Manifest& manifest, const xml::Element& root, Diagnostics& diagnostics) {
   if (manifest.gives.empty()) return;
-  const PluginKind giver = manifest.hasProxy()        ? PluginKind::kRenderer
-                           : manifest.gives == "hand" ? PluginKind::kDevice
-                                                      : PluginKind::kModule;
+  const bool device = manifest.hasFigure() || manifest.gives == "hand";
+  const PluginKind giver = manifest.hasProxy() ? PluginKind::kRenderer
+                           : device            ? PluginKind::kDevice
+                                               : PluginKind::kModule;
   if (manifest.kind == giver) return;
   diagnostics.error(
       kAgainstKind, root.where("gives"),

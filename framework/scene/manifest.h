@@ -42,7 +42,8 @@ struct Manifest {
   std::string name, version;  ///< of the plug-in
   PluginKind kind = PluginKind::kForceEffect;
   std::string about;
-  /// "proxy": a renderer with a proxy; "view", "bus": the module that draws, that publishes; empty: nothing others ask for
+  /// "proxy": a renderer with a proxy; "view", "bus": the module that draws, that publishes; "figure": a device whose
+  /// driver says what it looks like (framework/device/device_figure.h); empty: nothing others ask for
   std::string gives;
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
   std::string left_out;  ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
@@ -52,6 +53,7 @@ struct Manifest {
   std::string file;
 
   bool hasProxy() const { return gives == "proxy"; }
+  bool hasFigure() const { return gives == "figure"; }
 };
 
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.

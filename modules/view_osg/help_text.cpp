@@ -55,7 +55,8 @@ Lines partLines() {
           {"7  8", "friction cones, forces"},
           {"9  0", "sleeping bodies, coordinate frames"},
           {"g  t", "plots of the last seconds, felt texture"},
-          {"o  j", "offsets of the fingers, joints"}};
+          {"o  j", "offsets of the fingers, joints"},
+          {"d  b  w", "devices, their deflection, their heat"}};
 }
 
 }  // namespace

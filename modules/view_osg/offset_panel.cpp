@@ -29,10 +29,14 @@ FingerOffset offsetFromHip(const FingerContact& contact, const Quat& R_WB) {
 }
 FingerOffset offsetFromObject(const FingerContact& contact) { return split(contact.p_BP, contact.nhat_B); }
 
+float OffsetPanel::heightFor(const World& world) {
+  return kHead + kFinger * static_cast<float>(world.scene.devices.size()) + 24;
+}
+
 OffsetPanel::OffsetPanel(osg::Group& right, float top, const World& world, const Ink& ink) {
   right.addChild(group_);
   const std::size_t fingers = world.scene.devices.size();
-  const float height = kHead + kFinger * static_cast<float>(fingers) + 24, left = -kMargin - kWidth;
+  const float height = heightFor(world), left = -kMargin - kWidth;
   group_->addChild(roundedPanel({left, top - height, kWidth, height}, 8, ink.panel));
   Label(*group_, left + kInset, top - 22, 16, ink.text, Typeface::kBold).set("offset [mm]");
   Label(*group_, kRight - kColumn - kGap, top - 22, 14, ink.soft, Typeface::kRegular, Label::Align::kRight)

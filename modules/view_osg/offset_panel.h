@@ -26,6 +26,8 @@ class OffsetPanel {
 
   /// `right`: group whose x = 0 is the right edge; `top`: upper edge of the panel.
   OffsetPanel(osg::Group& right, float top, const World& world, const Ink& ink);
+  /// [lines]
+  static float heightFor(const World& world);
   void update(const ViewFrame& frame);
   void show(bool shown) { group_->setNodeMask(shown ? ~0U : 0U); }
 

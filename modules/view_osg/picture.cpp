@@ -42,9 +42,11 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       joints_(world_->scene, bodies_, *space_, hud_.center(), inkOn(options.picture.background)),
       ink_(inkOn(options.picture.background)),
       panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
-              parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots]),
+              parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots] || parts_[ShownPart::kCompliance] ||
+              parts_[ShownPart::kHeat]),
       whole_cones_(options.picture.hud != PictureOptions::Hud::kFull || options.picture.camera),
       offsets_top_(options.picture.hud == PictureOptions::Hud::kFull ? kBelowRates : Hud::kHeight - 18) {
+  devices_ = ShownDevices::of(*world_, *space_, *finger_casters_, hud_.right(), ink_);
   addGrain(*space_->getOrCreateStateSet(), world_->scene);
   casters_->addChild(bodies_.root());
   finger_casters_->addChild(glyphs_.casters());
@@ -106,6 +108,7 @@ void Picture::setScreen(const ParticipantScreen& screen) {
 ShownParts Picture::partsNow() const {
   if (!screen_) return parts_;
   ShownParts parts;
+  parts.set(ShownPart::kDevices, false);  // they show what the fingers measure
   parts.set(ShownPart::kVisual, screen_->bodies);
   parts.set(ShownPart::kProxies, screen_->fingertips);
   for (const ShownPart part : {ShownPart::kHips, ShownPart::kCones, ShownPart::kForces})
@@ -118,6 +121,7 @@ void Picture::setQuick(bool quick) {
   lighting_.setQuality(quick ? kQuickLight : kFineLight);
   bodies_.setQuick(quick);
   glyphs_.setQuick(quick);
+  if (devices_) devices_->setQuick(quick);
   floor_->removeChildren(0, floor_->getNumChildren());
   floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_,
                              lighting_.reach() * kShadows * floor_radius_ / kFloorReach, quick));
@@ -168,6 +172,7 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
     const double shades = finger.touches() ? std::round(kShades * finger.normal_force) : -1;
     appearance.insert(appearance.end(), {static_cast<double>(finger.mode), shades});
   }
+  if (devices_) devices_->appendAppearance(appearance);
   if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
   return watch_->update({frame.X_WB, *finger_casters_, others, appearance, kSeen * radius});
 }
@@ -189,6 +194,11 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   std::vector<FingerView> fingers = fingerViews(*world_, frame);
   if (screen_ && !screen_->measured) fingers = withoutMeasured(std::move(fingers));
   const ShownParts parts = partsNow();
+  if (devices_) {
+    devices_->takePens(parts, fingers);
+    devices_->show(parts, frame,
+                   parts[ShownPart::kOffset] ? offsets_top_ - OffsetPanel::heightFor(*world_) - 10 : offsets_top_);
+  }
   time_ = frame.time;
   bodies_.setPoses(frame.X_WB);
   bodies_.show(parts[ShownPart::kVisual]);
@@ -214,8 +224,9 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   joints_.show(parts[ShownPart::kJoints], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
-  if (lighting_.setFocus(focus.center, (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius))
-    watch_->changeAll();
+  double lit = (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius;
+  if (devices_ && !quick_ && parts[ShownPart::kDevices]) lit = std::max(lit, devices_->reachFrom(focus.center));
+  if (lighting_.setFocus(focus.center, lit)) watch_->changeAll();
   lighting_.beginFrame(changed(frame, fingers, parts, focus.radius));
 }
 

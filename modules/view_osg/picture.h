@@ -21,6 +21,7 @@
 #include "modules/view_osg/plots.h"
 #include "modules/view_osg/scene_nodes.h"
 #include "modules/view_osg/show_how.h"
+#include "modules/view_osg/shown_devices.h"
 #include "modules/view_osg/shown_joints.h"
 #include "modules/view_osg/time_bar.h"
 #include "modules/view_osg/visit_screen.h"
@@ -46,6 +47,7 @@ class Picture {
   void follow(const ViewFrame& frame, const GroupTimings& timings) {
     if (parts_[ShownPart::kPlots]) plots_.add(frame, timings);
     if (parts_[ShownPart::kJoints]) joints_.follow(frame);
+    if (devices_) devices_->follow(frame);
   }
   void show(const ViewFrame& frame, const GroupTimings& timings);
   /// What a participant sees from the next frame on; only in runs with RunOptions::participant.
@@ -97,6 +99,7 @@ class Picture {
   std::unique_ptr<Guides> guides_;             // only in scenes with an assembly
   std::unique_ptr<FingerMarks> finger_marks_;  // only for visitors
   std::unique_ptr<ShowHow> show_how_;          // only for visitors with a mouse
+  std::unique_ptr<ShownDevices> devices_;      // only with a driver that has a figure
   osg::ref_ptr<osg::Group> casters_ = new osg::Group, finger_casters_ = new osg::Group;
   std::vector<osg::Node*> still_;  // parts of the space that do not move, and the bodies
   Lighting lighting_;

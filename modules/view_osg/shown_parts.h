@@ -7,7 +7,7 @@
 
 namespace presa::view {
 
-/// Visible parts of the picture. Default: bodies, HIPs, fingertips, cones and forces.
+/// Visible parts of the picture. Default: bodies, HIPs, fingertips, cones, forces and devices.
 class ShownParts {
  public:
   ShownParts() = default;
@@ -20,8 +20,8 @@ class ShownParts {
   void toggle(ShownPart part) { shown_[static_cast<std::size_t>(part)] = !(*this)[part]; }
 
  private:
-  std::array<bool, kShownPartNames.size()> shown_{true, false, false, false, true,  true,  true,
-                                                  true, false, false, false, false, false, false};
+  std::array<bool, kShownPartNames.size()> shown_{true,  false, false, false, true,  true, true,  true, false,
+                                                  false, false, false, false, false, true, false, false};
 };
 
 }  // namespace presa::view

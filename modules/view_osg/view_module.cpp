@@ -65,6 +65,8 @@ void ViewModule::start() {
                                           .visitor = forVisitors(*world_)},
                                          options_.picture)
                     : makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
+  } catch (const InputError&) {
+    throw;  // a driver's figure
   } catch (const std::exception& error) {
     if (windowed())
       refuse(701, "command line", std::string("cannot show the run: ") + error.what(),

@@ -158,6 +158,14 @@ bool WindowInput::key(const Event& event) {
       if (controls_.visitor) return true;
       picture_.parts().toggle(ShownPart::kJoints);
       return true;
+    case 'd':
+    case 'b':
+    case 'w':
+      if (controls_.visitor) return true;
+      picture_.parts().toggle(key == 'd'   ? ShownPart::kDevices
+                              : key == 'b' ? ShownPart::kCompliance
+                                           : ShownPart::kHeat);
+      return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
       return true;

@@ -105,6 +105,26 @@ json orientationsOf(const RecordedTable& table, const std::vector<std::size_t>& 
   return channels;
 }
 
+json partsOf(const PageFigures& figures, const RecordedSamples& samples, const std::vector<std::size_t>& rows) {
+  json parts = json::array();
+  for (const PageFigure& figure : figures) {
+    for (const std::vector<Pose>& motion : motionOf(figure, samples, rows)) {
+      std::array<std::vector<double>, 7> channels;
+      Quat before = Quat::Identity();
+      for (const Pose& X : motion) {
+        const double sign = X.q.dot(before) < 0 ? -1 : 1;
+        before = Quat(sign * X.q.w(), sign * X.q.x(), sign * X.q.y(), sign * X.q.z());
+        const std::array<double, 7> row{X.p.x(), X.p.y(), X.p.z(), before.w(), before.x(), before.y(), before.z()};
+        for (std::size_t i = 0; i < row.size(); ++i) channels[i].push_back(row[i]);
+      }
+      json p = json::array(), q = json::array();
+      for (std::size_t i = 0; i < channels.size(); ++i) (i < 3 ? p : q).push_back(packed(channels[i]));
+      parts.push_back({{"p", p}, {"q", q}});
+    }
+  }
+  return parts;
+}
+
 /// The touched points in W; where nothing is touched, the proxy.
 json contactsOf(const RecordedTable& finger, const std::vector<std::size_t>& rows, const World& world,
                 const std::map<std::size_t, const RecordedTable*>& tables) {
@@ -129,14 +149,15 @@ json contactsOf(const RecordedTable& finger, const std::vector<std::size_t>& row
 
 }  // namespace
 
-json keyframesOf(const RecordedSamples& samples, const World& world) {
+json keyframesOf(const RecordedSamples& samples, const World& world, const PageFigures& figures) {
   std::map<std::size_t, const RecordedTable*> tables;
   std::vector<MovingBody> moving;
   for (const MovingBody& body : freeBodies(samples, world)) {
     tables.emplace(body.index, body.table);
     if (moves(*body.table)) moving.push_back(body);
   }
-  const std::size_t bytes = moving.size() * kBodyBytes + samples.fingers.size() * kFingerBytes + 1;
+  const std::size_t bytes =
+      (moving.size() + partCount(figures)) * kBodyBytes + samples.fingers.size() * kFingerBytes + 1;
   const Raster raster = rasterOf(samples, std::min(kMaxKeyframes, kMaxBytes / bytes + 2));
   const std::vector<std::size_t> rows = rowsOf(samples.time, raster);
 
@@ -161,7 +182,12 @@ json keyframesOf(const RecordedSamples& samples, const World& world) {
       if (tool.name == finger.name) fingers.back()["tool"] = orientationsOf(tool, rows, "q_WT");
     }
   }
-  return {{"count", raster.count}, {"period", raster.period}, {"moving", bodies}, {"fingers", fingers}};
+  for (const PageFigure& figure : figures) fingers[figure.finger]["device"] = true;
+  return {{"count", raster.count},
+          {"period", raster.period},
+          {"moving", bodies},
+          {"fingers", fingers},
+          {"parts", partsOf(figures, samples, rows)}};
 }
 
 }  // namespace presa::replay_page

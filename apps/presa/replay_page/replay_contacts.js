@@ -88,7 +88,7 @@ if (presaReplay.scene) (() => {
           const [w, x, y, z] = glyph.tools.map(part => between(part, key));
           const axis = kForward.clone().applyQuaternion(new THREE.Quaternion(x, y, z, w).normalize());
           along(glyph.pen, proxy, axis, 0.003, 0.12);
-          glyph.pen.visible = glyph.tip.visible;
+          glyph.pen.visible = glyph.tip.visible && !(glyph.finger.device && shown.devices);
         }
         showForce(glyph, vector(glyph.contacts, key), key, state, shown);
       }

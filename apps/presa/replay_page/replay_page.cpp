@@ -8,6 +8,7 @@
 #include "apps/common/report/fault_events.h"
 #include "apps/common/report/joint_section.h"
 #include "apps/common/report/recording_page.h"
+#include "apps/presa/replay_page/figures.h"
 #include "apps/presa/replay_page/keyframes.h"
 #include "apps/presa/replay_page/resources.h"
 #include "apps/presa/replay_page/shapes.h"
@@ -94,8 +95,9 @@ json dataOf(const Recording& recording, const RecordedSamples& samples, const Sc
             {"end", samples.time.back()},
             {"trouble", scenery.trouble}};
   if (world != nullptr) {
-    data["scene"] = shapesOf(*world);
-    data["motion"] = keyframesOf(samples, *world);
+    const PageFigures figures = figuresOf(world->rig, samples);
+    data["scene"] = shapesOf(*world, figures);
+    data["motion"] = keyframesOf(samples, *world, figures);
   }
   const json none{{"period", 1.0}};
   data["decimation"] = decimationOf(data["signals"], world != nullptr ? data["motion"] : none,

@@ -34,25 +34,39 @@ presaReplay.scene = (() => {
     object.position.set(pose[0], pose[1], pose[2]);
     object.quaternion.set(pose[4], pose[5], pose[6], pose[3]);
   }
-  const bodies = data.scene.bodies.map(body => {
+  function groupOf(list, color, casts) {
     const group = new THREE.Group();
-    for (const shape of body.shapes) {
-      const mesh = new THREE.Mesh(shapes.geometryOf(shape), shapes.materialOf(body.color));
-      mesh.castShadow = mesh.receiveShadow = true;
+    for (const shape of list) {
+      const mesh = new THREE.Mesh(shapes.geometryOf(shape), shapes.materialOf(shape.color || color));
+      mesh.castShadow = casts;
+      mesh.receiveShadow = true;
       place(mesh, shape.pose);
       group.add(mesh);
     }
+    return group;
+  }
+  const bodies = data.scene.bodies.map(body => {
+    const group = groupOf(body.shapes, body.color, true);
     place(group, body.pose);
     scene.add(group);
     return group;
   });
 
+  // the sun's shadows end near the bodies and would cut those of devices off
+  const devices = new THREE.Group(), parts = data.scene.parts.map(part => groupOf(part.shapes, null, false));
+  if (parts.length) {
+    devices.add(...parts);
+    view.querySelector('[data-show=devices]').parentNode.hidden = false;
+  }
+  scene.add(devices);
+
   // ---- motion ----
 
   const {motion} = data;
-  const moving = motion.moving.map(one => ({
-    body: bodies[one.body], index: one.body,
-    p: one.p.map(axis => numbers(axis, motion.count)), q: one.q.map(part => numbers(part, motion.count))}));
+  const pathOf = one => ({
+    p: one.p.map(axis => numbers(axis, motion.count)), q: one.q.map(part => numbers(part, motion.count))});
+  const moving = motion.moving.map(one => ({body: bodies[one.body], index: one.body, ...pathOf(one)}));
+  const carried = motion.parts.map((one, i) => ({body: parts[i], ...pathOf(one)}));
   /** The keyframe at or before a time, and how far it is to the next one. */
   function keyAt(time) {
     const at = clamp((time - data.begin) / motion.period, 0, motion.count - 1);
@@ -61,7 +75,7 @@ presaReplay.scene = (() => {
   }
   const between = (channel, {k, s}) => channel[k] + s * (channel[k + 1] - channel[k]);
   function moveBodies(key) {
-    for (const {body, p, q} of moving) {
+    for (const {body, p, q} of [...moving, ...carried]) {
       body.position.set(between(p[0], key), between(p[1], key), between(p[2], key));
       body.quaternion.set(between(q[1], key), between(q[2], key), between(q[3], key), between(q[0], key)).normalize();
     }
@@ -102,7 +116,7 @@ presaReplay.scene = (() => {
   moveBodies(keyAt(data.begin));
   const box = extent(), followed = bodies[held.length ? held[0] : (moving[0] || {}).index];
   let middle = box.getCenter(new THREE.Vector3()), radius = clamp(1.12 * halfSize(box), 0.03, 1e5);
-  const shown = {forces: true, cones: true, tips: true, follow: false};
+  const shown = {forces: true, cones: true, tips: true, devices: true, follow: false};
   const size = followed ? halfSize(new THREE.Box3().setFromObject(followed)) : 0;
   if (size > 0 && halfSize(sweep(bodies.indexOf(followed))) > 20 * size) {  // far away it would be a speck: go with it
     shown.follow = view.querySelector('[data-show=follow]').checked = true;
@@ -176,6 +190,7 @@ presaReplay.scene = (() => {
     waiting = false;
     const key = keyAt(clock.shown);
     moveBodies(key);
+    devices.visible = shown.devices;
     if (contacts) contacts.show(key, clock.shown, shown);
     follow();
     renderer.render(scene, camera);

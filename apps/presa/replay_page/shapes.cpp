@@ -97,6 +97,23 @@ json shapeOf(const DrawnShape& drawn, MeshTable& meshes) {
   return shape;
 }
 
+json colorOf(const Vec3& color) { return {color.x(), color.y(), color.z()}; }
+
+json partsOf(const PageFigures& figures, MeshTable& meshes) {
+  json parts = json::array();
+  for (const PageFigure& figure : figures) {
+    for (const FigurePart& part : figure.drawn->parts()) {
+      json shapes = json::array();
+      for (const FigureShape& shape : part.shapes) {
+        shapes.push_back(shapeOf({&shape.shape, shape.mesh.get(), shape.X_PG}, meshes));
+        shapes.back()["color"] = colorOf(shape.color);
+      }
+      parts.push_back({{"name", part.name}, {"shapes", shapes}});
+    }
+  }
+  return parts;
+}
+
 /// The lowest point of a shape at the body's start pose [m].
 double lowestOf(const DrawnShape& drawn, const Pose& X_WB) {
   const Pose X_WG = X_WB * drawn.X_BG;
@@ -105,7 +122,7 @@ double lowestOf(const DrawnShape& drawn, const Pose& X_WB) {
 
 }  // namespace
 
-json shapesOf(const World& world) {
+json shapesOf(const World& world, const PageFigures& figures) {
   MeshTable meshes;
   json bodies = json::array();
   double floor = std::numeric_limits<double>::infinity();
@@ -118,13 +135,17 @@ json shapesOf(const World& world) {
       floor = std::min(floor, lowestOf(drawn, body.X_WB));
     }
     bodies.push_back({{"name", body.name},
-                      {"color", {material.color.x(), material.color.y(), material.color.z()}},
+                      {"color", colorOf(material.color)},
                       {"mu", material.friction_static},
                       {"pose", poseOf(body.X_WB)},
                       {"fixed", body.fixed},
                       {"shapes", shapes}});
   }
-  return {{"meshes", meshes.written()}, {"bodies", bodies}, {"floor", std::isfinite(floor) ? floor : 0.0}};
+  const json parts = partsOf(figures, meshes);
+  return {{"meshes", meshes.written()},
+          {"bodies", bodies},
+          {"parts", parts},
+          {"floor", std::isfinite(floor) ? floor : 0.0}};
 }
 
 }  // namespace presa::replay_page

@@ -366,6 +366,13 @@ std::vector<double> unpacked(const json& channel) {
 
 // 80 Hz of amplitude 1 in bins of 25 ms: two periods a bin, 12.5 samples a period, so a sample lies within 14.4 degrees
 // of each crest: cos 14.4 = 0.968. A picked sample a bin would show a slow beat instead.
+// A device without a figure adds nothing, and its switch stays hidden.
+TEST(ReplayPage, WithoutFiguresNoDeviceIsInIt) {
+  const std::string page = pageOf(recorded("config/scenes/pinch_and_lift.xml"));
+  EXPECT_NE(page.find("\"parts\":[]"), std::string::npos);
+  EXPECT_NE(page.find("<label hidden><input type=\"checkbox\" data-show=\"devices\""), std::string::npos);
+}
+
 TEST(ReplayPage, AnOscillationFasterThanTheBinsKeepsItsAmplitude) {
   std::vector<double> time, force;
   for (int i = 0; i < 100'000; ++i) {

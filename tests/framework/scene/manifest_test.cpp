@@ -202,6 +202,8 @@ TEST_F(Manifests, OfOtherKindsSayNothingOfModulesAndDevices) {
             "595 the friction law 'wind' has <setting>\n");
   write("presa_wind.xml", wind("gives=\"view\"", ""));
   EXPECT_EQ(errors(), "595 the friction law 'wind' says gives=\"view\"\n");
+  write("presa_wind.xml", wind("gives=\"figure\"", ""));
+  EXPECT_EQ(errors(), "595 the friction law 'wind' says gives=\"figure\"\n");
 }
 
 TEST_F(Manifests, OfDevicesListTheirSettings) {
