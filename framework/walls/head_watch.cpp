@@ -37,7 +37,8 @@ const Pose& HeadWatch::update(const Pose& measured, bool valid, double time) noe
   last_ = measured;
   last_time_ = time;
   pose_ = measured;
-  if (const double share = minimumJerk((time - begin_) / kReturn); share < 1) pose_ = interpolate(from_, measured, share);
+  if (const double share = minimumJerk((time - begin_) / kReturn); share < 1)
+    pose_ = interpolate(from_, measured, share);
   pose_.q.normalize();
   return pose_;
 }
