@@ -11,8 +11,8 @@ namespace presa::walls {
 /// silent. Times are those of CLOCK_MONOTONIC. Thread: one.
 class WallFollower {
  public:
-  static constexpr std::int64_t kSilence = 500'000'000;  ///< a leader that says nothing for so long is lost [ns]
-  static constexpr std::int64_t kGreeting = 50'000'000;  ///< between repetitions of the last answer [ns]
+  static constexpr std::int64_t kSilence = 1'000'000'000;  ///< a leader that says nothing for so long is lost [ns]
+  static constexpr std::int64_t kGreeting = 50'000'000;    ///< between repetitions of the last answer [ns]
 
   /// `sender`: random id of this process. `rest`: the head that it shows before the first frame.
   WallFollower(std::uint64_t sender, const std::string& wall, const Pose& rest);

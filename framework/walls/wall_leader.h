@@ -13,10 +13,10 @@ namespace presa::walls {
 /// Times are those of CLOCK_MONOTONIC. Thread: one.
 class WallLeader {
  public:
-  static constexpr std::int64_t kPatience = 500'000'000;  ///< [ns]
-  static constexpr std::int64_t kRepeat = 50'000'000;     ///< an unanswered frame is announced again [ns]
+  static constexpr std::int64_t kPatience = 1'000'000'000;  ///< [ns]
+  static constexpr std::int64_t kRepeat = 50'000'000;       ///< an unanswered frame is announced again [ns]
 
-  static constexpr std::size_t kMost = 64;                ///< processes; more are not waited for
+  static constexpr std::size_t kMost = 64;  ///< processes; more are not waited for
 
   explicit WallLeader(std::uint64_t id) { frame_.leader = id; }
 

@@ -1,6 +1,7 @@
 #include <osg/GLObjects>
 #include <osgUtil/RenderBin>
 #include <osgViewer/GraphicsWindow>
+#include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 #include <stdexcept>
 
@@ -84,6 +85,7 @@ class WallRenderer final : public Renderer {
     heedInput();
     if (closed()) return;
     makeCurrent();
+    if (!std::exchange(warm_, true)) warmUp();
     draw(1);
     if (window_) window_->swapBuffers();
   }
@@ -117,6 +119,18 @@ class WallRenderer final : public Renderer {
       window_->makeCurrent();
     else
       egl_->makeCurrent();
+  }
+  /// Draws everything once, hidden parts and those beside the picture, too: a driver compiles each shader when it is first
+  /// used, which would halt all walls in the middle of a run.
+  void warmUp() {
+    osg::Camera& camera = *viewer_.getCamera();
+    auto& scene_view = *static_cast<osgViewer::Renderer*>(camera.getRenderer())->getSceneView(0);
+    const osg::CullSettings::CullingMode culling = camera.getCullingMode();
+    camera.setCullingMode(osg::CullSettings::NO_CULLING);
+    scene_view.getCullVisitor()->setNodeMaskOverride(~0U);
+    draw(1);
+    scene_view.getCullVisitor()->setNodeMaskOverride(0);
+    camera.setCullingMode(culling);
   }
   void draw(int scale) {
     const std::vector<Pass> passes = passesOf(canvas_);
@@ -162,7 +176,7 @@ class WallRenderer final : public Renderer {
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> surface_;
-  bool grab_ = false, closed_ = false;
+  bool grab_ = false, closed_ = false, warm_ = false;
 };
 
 }  // namespace
