@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <osg/ColorMask>
 
 #include "modules/view_osg/landscape.h"
 
@@ -135,6 +136,7 @@ void Picture::surround(osg::Group& root) {
   // indoors, the wall of the room has the colour of the lower edge of a picture everywhere
   lighting_.setPictureSize(1 << 30, 1 << 30);
   root.getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 0)));
+  lighting_.passes()->getOrCreateStateSet()->setAttribute(new osg::ColorMask);  // whole, whatever the root writes
   root.addChild(space_);
 }
 
