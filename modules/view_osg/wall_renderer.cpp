@@ -61,7 +61,6 @@ class WallRenderer final : public Renderer {
     if (!window && canvas.stereo == Stereo::kQuad) canvas.quad_refused = true;
     picture.setQuick(drawsInSoftware());
     picture.surround(*root_);
-    root_->getOrCreateStateSet()->setAttribute(channels_);
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     const int scale = window ? 1 : kSupersample;
     surface_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, scale * canvas.width, scale * canvas.height);
@@ -146,8 +145,9 @@ class WallRenderer final : public Renderer {
     const double width = scale * canvas_.width, height = scale * canvas_.height;
     camera.setViewport(
         new osg::Viewport(pass.left * width, pass.bottom * height, pass.width * width, pass.height * height));
-    camera.setColorMask(pass.red, pass.cyan, pass.cyan, true);  // of clearing
-    channels_->setMask(pass.red, pass.cyan, pass.cyan, true);   // of drawing
+    // objects of their own: OpenSceneGraph applies no state twice that it has seen, changed or not
+    root_->getOrCreateStateSet()->setAttribute(pass.red && pass.cyan ? all_ : pass.red ? red_ : cyan_);
+    camera.setClearMask(pass.red ? GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT : GL_DEPTH_BUFFER_BIT);
     if (window_) camera.setDrawBuffer(pass.buffer);
     const walls::Frustum& eye = pass.eye;
     camera.setViewMatrix(toOsg(eye.X_WE.inverse()));
@@ -176,7 +176,8 @@ class WallRenderer final : public Renderer {
   std::optional<EglContext> egl_;              // off-screen
   osg::ref_ptr<osg::GraphicsContext> window_;  // in a window
   osg::ref_ptr<osg::Group> root_ = new osg::Group;
-  osg::ref_ptr<osg::ColorMask> channels_ = new osg::ColorMask;
+  osg::ref_ptr<osg::ColorMask> all_ = new osg::ColorMask, red_ = new osg::ColorMask(true, false, false, true),
+                               cyan_ = new osg::ColorMask(false, true, true, true);
   osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
   osgViewer::Viewer viewer_;
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> surface_;
