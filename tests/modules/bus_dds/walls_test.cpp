@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -150,6 +151,47 @@ TEST(Walls, FreezeWithoutTheirLeaderAndGoOnWithTheNext) {
   ASSERT_TRUE(hearFrom(5, -10));
   // the first frame shows the frozen head, to the rounding of the path that begins there
   EXPECT_LT((heard.frames.begin()->second.X_KHead.p - frozen).norm(), 1e-3);
+}
+
+/// A rig of a scripted head with these keyframes and settings.
+std::string headRig(const std::string& name, const std::string& keyframes, const std::string& settings = "") {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir());
+  const std::string stem = "presa_head_" + name + "_" + std::to_string(getpid());
+  std::ofstream(folder / (stem + ".csv")) << "time_s,role,x_m,y_m,z_m,qw,qx,qy,qz\n" << keyframes;
+  std::ofstream(folder / (stem + ".xml"))
+      << R"(<rig version="1.0" name="head"><device role="head" driver="scripted"><set key="motion" value=")" << stem
+      << ".csv\"/>" << settings << "</device></rig>";
+  return (folder / (stem + ".xml")).string();
+}
+
+// The tracker is lost while the head moves: the leader and the wall say so, and all frames from then on have one head.
+TEST(Walls, ALostTrackerFreezesTheHeadAndIsTold) {
+  const BusSettings bus = ownDomain();
+  const auto link = openWallLink(bus);
+  const auto run = runCube(bus, "60");
+  ViewerProcess front(caveProcess({"--wall", "front", "--view", "offscreen"}), bus);
+  const std::string rig = headRig("lost", "0,head,-0.8,-0.8,1.7,1,0,0,0\n20,head,0.8,-0.8,1.7,1,0,0,0\n",
+                                  R"(<set key="lost_at" value="4"/>)");
+  ViewerProcess leader(caveProcess({"--head", rig}), bus);
+  EXPECT_TRUE(front.says("HEAD LOST: it stays where it was"));
+  EXPECT_TRUE(leader.says("front"));
+  EXPECT_TRUE(leader.says("HEAD LOST: it stays where it was"));
+  Heard heard;
+  heard.take(*link);
+  std::set<double> before, after;
+  for (const auto& [number, frame] : heard.frames) (frame.tracked ? before : after).insert(frame.X_KHead.p.x());
+  EXPECT_GT(before.size(), 5u);
+  ASSERT_FALSE(after.empty());
+  EXPECT_EQ(*after.rbegin(), *before.rbegin());  // 4 s of 20: on its way to the right
+}
+
+TEST(Walls, AnEyeBehindAWallFreezesThatWallAndIsTold) {
+  const BusSettings bus = ownDomain();
+  const auto run = runCube(bus, "60");
+  ViewerProcess front(caveProcess({"--wall", "front", "--view", "offscreen"}), bus);
+  const std::string rig = headRig("behind", "0,head,0,1.7,1.7,1,0,0,0\n1,head,0,1.7,1.7,1,0,0,0\n");
+  const ViewerProcess leader(caveProcess({"--head", rig, "--quiet"}), bus);
+  EXPECT_TRUE(front.says("the eye is behind the wall: its picture is frozen"));
 }
 
 TEST(Walls, TwoLeadersAreRefused) {
