@@ -24,7 +24,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake 
 install(FILES config/cmake/PresaConfig.cmake config/cmake/PresaPlugin.cmake ${PROJECT_BINARY_DIR}/PresaConfigVersion.cmake
   ${presa_interface} DESTINATION lib/cmake/Presa)
 
-install(DIRECTORY config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple config/textures
+install(DIRECTORY config/cave config/meshes config/motions config/pictures config/rigs config/scenes config/schema config/temple config/textures
   DESTINATION share/presa/config PATTERN "*.py" EXCLUDE PATTERN "*.tsv" EXCLUDE)
 install(DIRECTORY experiments/ DESTINATION share/presa/experiments FILES_MATCHING
   PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.obj" PATTERN "README.md")

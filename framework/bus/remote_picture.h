@@ -40,6 +40,12 @@ class RemotePicture final : public Listener {
   /// time.
   void advance(std::int64_t now_ns) noexcept;
 
+  /// Shows the state at another simulated time, until the next advance(): that of a frame which several viewers draw.
+  void showAt(double time) noexcept { time_ = time; }
+  /// Time of the newest sample [s].
+  double newest() const noexcept { return newest_; }
+  std::uint64_t run() const noexcept { return run_.run; }
+
   State state() const noexcept { return state_; }
   bool wrongScene() const noexcept { return wrong_scene_; }
   /// Simulated time of the picture [s].

@@ -1,5 +1,6 @@
 #include "framework/bus/state_bus.h"
 
+#include "framework/bus/wall_link.h"
 #include "framework/plugin/plugin_loader.h"
 #include "framework/scene/manifest.h"
 
@@ -29,6 +30,11 @@ std::unique_ptr<CommandPost> openPost(const BusSettings& settings) {
 std::unique_ptr<Commander> openCommander(const BusSettings& settings) {
   using Open = Commander* (*)(const BusSettings&);
   return std::unique_ptr<Commander>(reinterpret_cast<Open>(symbolOf("presaOpenBusCommander"))(settings));
+}
+
+std::unique_ptr<WallLink> openWallLink(const BusSettings& settings) {
+  using Open = WallLink* (*)(const BusSettings&);
+  return std::unique_ptr<WallLink>(reinterpret_cast<Open>(symbolOf("presaOpenBusWalls"))(settings));
 }
 
 }  // namespace presa::bus

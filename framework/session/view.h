@@ -8,6 +8,7 @@
 #include "framework/core/graph/module.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/scene/participant_screen.h"
+#include "framework/walls/canvas.h"
 
 namespace presa {
 
@@ -71,6 +72,10 @@ class View : public Module {
   /// Lets keys of the window pause and slow time through `time_control`, which must outlive the view; a length above 0
   /// [s] adds a bar for jumping within a recording. Call before start().
   virtual void offerTime(TimeControl& time_control, double length) noexcept = 0;
+
+  /// Draws one wall of a CAVE in place of a camera's picture, in every step: without head-up display, for the eyes that
+  /// `canvas` has then. It must outlive the view. Call before start().
+  virtual void drawOnWall(walls::Canvas& canvas) noexcept = 0;
 
   /// Handles input and draws the last state again while time is paused. On the thread of the view.
   virtual void refresh() noexcept = 0;

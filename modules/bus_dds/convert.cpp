@@ -158,4 +158,36 @@ bus::OpenParameter fromTopic(const presa_dds_Parameter& parameter) {
   return {parameter.run, parameter.name, parameter.value, parameter.least, parameter.most, parameter.of};
 }
 
+presa_dds_WallFrame toTopic(const bus::WallFrame& frame) noexcept {
+  presa_dds_WallFrame out{frame.leader, frame.number, frame.run, frame.time, {}, {}, frame.tracked};
+  put(frame.X_KHead.p, out.head);
+  put(frame.X_KHead.q, out.head_orientation);
+  return out;
+}
+
+presa_dds_WallDrawn toTopic(const bus::WallDrawn& drawn) noexcept {
+  presa_dds_WallDrawn out{drawn.sender, drawn.leader, drawn.number,  {}, drawn.time, drawn.state,
+                          {},           {},           drawn.shown_ns};
+  put(drawn.wall, out.wall);
+  put(drawn.X_KHead.p, out.head);
+  put(drawn.X_KHead.q, out.head_orientation);
+  return out;
+}
+
+bus::WallFrame fromTopic(const presa_dds_WallFrame& frame) noexcept {
+  return {frame.leader, frame.number, frame.run, frame.time, {vec3(frame.head), quat(frame.head_orientation)},
+          frame.tracked};
+}
+
+bus::WallDrawn fromTopic(const presa_dds_WallDrawn& drawn) {
+  return {drawn.sender,
+          drawn.leader,
+          drawn.number,
+          drawn.wall,
+          drawn.time,
+          drawn.state,
+          {vec3(drawn.head), quat(drawn.head_orientation)},
+          drawn.shown_ns};
+}
+
 }  // namespace presa::bus_dds

@@ -2,6 +2,7 @@
 #include <RunState.h>
 
 #include "framework/bus/samples.h"
+#include "framework/bus/wall_link.h"
 
 /// Conversions between the samples of framework/bus and the topic types. Numbers pass unchanged, to the bit.
 namespace presa::bus_dds {
@@ -16,6 +17,8 @@ presa_dds_Answer toTopic(const bus::Answer& answer) noexcept;
 presa_dds_Parameter toTopic(const bus::OpenParameter& parameter) noexcept;
 /// The result points to the texts of `run`, which must outlive it.
 presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
+presa_dds_WallFrame toTopic(const bus::WallFrame& frame) noexcept;
+presa_dds_WallDrawn toTopic(const bus::WallDrawn& drawn) noexcept;
 
 bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;
 bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept;
@@ -25,5 +28,7 @@ bus::Command fromTopic(const presa_dds_Command& command);
 bus::Answer fromTopic(const presa_dds_Answer& answer) noexcept;
 bus::OpenParameter fromTopic(const presa_dds_Parameter& parameter);
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run);
+bus::WallFrame fromTopic(const presa_dds_WallFrame& frame) noexcept;
+bus::WallDrawn fromTopic(const presa_dds_WallDrawn& drawn);
 
 }  // namespace presa::bus_dds

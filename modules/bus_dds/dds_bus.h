@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "framework/bus/state_bus.h"
+#include "framework/bus/wall_link.h"
 
 namespace presa::bus_dds {
 
@@ -11,5 +12,6 @@ std::unique_ptr<bus::Writer> makeWriter(const BusSettings& settings);
 std::unique_ptr<bus::Reader> makeReader(const BusSettings& settings);
 std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings);
 std::unique_ptr<bus::Commander> makeCommander(const BusSettings& settings);
+std::unique_ptr<bus::WallLink> makeWallLink(const BusSettings& settings);
 
 }  // namespace presa::bus_dds

@@ -2,11 +2,10 @@
 #include "modules/bus_dds/convert.h"
 #include "modules/bus_dds/dds_bus.h"
 #include "modules/bus_dds/participant.h"
+#include "modules/bus_dds/polled_topics.h"
 
 namespace presa::bus_dds {
 namespace {
-
-constexpr std::size_t kAtOnce = 64;
 
 /// The three topics of commands; created only by a CommandPost or a Commander.
 struct Topics {
@@ -16,34 +15,6 @@ struct Topics {
         parameters(makeTopic(joined, presa_dds_Parameter_desc, "presa_parameter")) {}
   Entity commands, answers, parameters;
 };
-
-Entity writerOf(const Participant& joined, const Entity& topic, const Qos& qos) {
-  return checked(dds_create_writer(joined.participant, topic, qos.get(), nullptr), "a writer");
-}
-Entity readerOf(const Participant& joined, const Entity& topic, const Qos& qos) {
-  return checked(dds_create_reader(joined.participant, topic, qos.get(), nullptr), "a reader");
-}
-
-template <class Topic>
-void send(const Entity& writer, const Topic& sample) noexcept {
-  dds_write(writer, &sample);
-  dds_write_flush(writer);
-}
-
-template <class Topic, class Sample>
-void takeAll(const Entity& reader, std::vector<Sample>& into) {
-  std::array<void*, kAtOnce> samples{};
-  std::array<dds_sample_info_t, kAtOnce> infos;
-  for (;;) {
-    samples[0] = nullptr;  // ask Cyclone to lend its own memory
-    const dds_return_t count = dds_take(reader, samples.data(), infos.data(), kAtOnce, kAtOnce);
-    if (count <= 0) return;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      if (infos[i].valid_data) into.push_back(fromTopic(*static_cast<const Topic*>(samples[i])));
-    }
-    dds_return_loan(reader, samples.data(), count);
-  }
-}
 
 class DdsPost final : public bus::CommandPost {
  public:

@@ -39,6 +39,11 @@ extern "C" __attribute__((visibility("default"))) presa::bus::Commander* presaOp
   return presa::bus_dds::makeCommander(settings).release();
 }
 
+extern "C" __attribute__((visibility("default"))) presa::bus::WallLink* presaOpenBusWalls(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeWallLink(settings).release();
+}
+
 extern "C" __attribute__((visibility("default"))) presa::bus::CommandPost* presaOpenBusPost(
     const presa::BusSettings& settings) {
   return presa::bus_dds::makePost(settings).release();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <osg/ColorMask>
 
 #include "modules/view_osg/landscape.h"
 
@@ -62,10 +63,10 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
                           neighbourhoods_.root(), relief_.root()})
     space_->addChild(part);
   if (guides_) space_->addChild(guides_->root());
-  osg::ref_ptr<osg::Node> background, landscape;
+  osg::ref_ptr<osg::Node> landscape;
   if (options.picture.background == PictureOptions::Background::kScene) {
-    background = makeBackground();
-    space_->addChild(background);
+    background_ = makeBackground();
+    space_->addChild(background_);
     space_->addChild(floor_);
     if (isOutdoors(world_->scene)) {
       ground_ = floorHeight(*world_);
@@ -75,7 +76,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
   }
   floor_center_ = enclose(subject_).center;
   floor_radius_ = reach;
-  still_ = {lighting_.passes(), bodies_.root(), background, floor_, landscape};
+  still_ = {lighting_.passes(), bodies_.root(), background_, floor_, landscape};
   watch_.emplace(bodies_, lighting_.directions(), lowestPoint(*world_));
   root_->getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 1)));
   root_->addChild(space_);
@@ -126,6 +127,21 @@ void Picture::setQuick(bool quick) {
   floor_->addChild(makeFloor(*world_, floor_center_, floor_radius_,
                              lighting_.reach() * kShadows * floor_radius_ / kFloorReach, quick));
   watch_->measureShapes();
+}
+
+void Picture::surround(osg::Group& root) {
+  constexpr int kColumns = 64;
+  if (background_) {
+    const osg::ref_ptr<osg::Node> fine = makeBackground(kColumns);
+    space_->replaceChild(background_, fine);
+    std::ranges::replace(still_, background_.get(), fine.get());
+    background_ = fine;
+  }
+  // indoors, the wall of the room has the colour of the lower edge of a picture everywhere
+  lighting_.setPictureSize(1 << 30, 1 << 30);
+  root.getOrCreateStateSet()->addUniform(new osg::Uniform("crop", osg::Vec2(0, 0)));
+  lighting_.passes()->getOrCreateStateSet()->setAttribute(new osg::ColorMask);  // whole, whatever the root writes
+  root.addChild(space_);
 }
 
 void Picture::setSize(int width, int height) { lighting_.setPictureSize(width, height); }

@@ -80,6 +80,9 @@ class Picture {
   void setQuick(bool quick);
   /// Size of the three-dimensional part [pixel].
   void setSize(int width, int height);
+  /// Makes the space one of several pictures around an eye, for a root of its own: its colours depend on directions, and
+  /// on no place in the picture.
+  void surround(osg::Group& root);
 
  private:
   void prepareForVisitors(const RunOptions& options);
@@ -101,6 +104,7 @@ class Picture {
   std::unique_ptr<ShowHow> show_how_;          // only for visitors with a mouse
   std::unique_ptr<ShownDevices> devices_;      // only with a driver that has a figure
   osg::ref_ptr<osg::Group> casters_ = new osg::Group, finger_casters_ = new osg::Group;
+  osg::ref_ptr<osg::Node> background_;
   std::vector<osg::Node*> still_;  // parts of the space that do not move, and the bodies
   Lighting lighting_;
   Hud hud_;

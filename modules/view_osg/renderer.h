@@ -2,6 +2,7 @@
 #include <memory>
 #include <osg/Image>
 
+#include "framework/walls/canvas.h"
 #include "modules/view_osg/picture.h"
 #include "modules/view_osg/window_input.h"
 
@@ -31,5 +32,10 @@ std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureO
 /// it. Throws std::runtime_error when there is no display.
 std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls,
                                              const PictureOptions& options);
+
+/// A wall of a CAVE, in a window of its size or off-screen: the three-dimensional part alone, for the eyes that `canvas`
+/// has when render() is called. `canvas` must outlive it. Throws std::runtime_error when there is no display.
+std::unique_ptr<Renderer> makeWallRenderer(Picture& picture, walls::Canvas& canvas, bool window,
+                                           const std::string& title);
 
 }  // namespace presa::view

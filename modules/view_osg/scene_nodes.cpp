@@ -183,22 +183,26 @@ std::optional<BodyNodes::Hit> BodyNodes::along(const Vec3& eye, const Vec3& ray)
   return std::nullopt;
 }
 
-osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows) {
+osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows, int columns) {
   osg::ref_ptr<osg::Geometry> sheet = new osg::Geometry;
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
-  for (int row = 0; row <= rows; ++row) {
-    const float up = static_cast<float>(row) / static_cast<float>(rows);
-    for (const float right : {0.0F, 1.0F}) {
-      places->push_back({right, up});
-      positions->push_back({2 * right - 1, 2 * up - 1, 0});
+  for (int column = 0; column < columns; ++column) {
+    const auto begin = static_cast<int>(positions->size());
+    for (int row = 0; row <= rows; ++row) {
+      const float up = static_cast<float>(row) / static_cast<float>(rows);
+      for (const int edge : {column, column + 1}) {
+        const float right = static_cast<float>(edge) / static_cast<float>(columns);
+        places->push_back({right, up});
+        positions->push_back({2 * right - 1, 2 * up - 1, 0});
+      }
     }
+    sheet->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, begin, static_cast<int>(positions->size()) - begin));
   }
   sheet->setUseDisplayList(false);
   sheet->setUseVertexBufferObjects(true);
   sheet->setVertexArray(positions);
   sheet->setTexCoordArray(0, places);
-  sheet->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, static_cast<int>(positions->size())));
   // positions are in clip space: without a bound it is not culled and does not move the near and far planes
   struct NoBound : osg::Drawable::ComputeBoundingBoxCallback {
     osg::BoundingBox computeBound(const osg::Drawable&) const override { return {}; }
@@ -208,9 +212,9 @@ osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows) {
   return sheet;
 }
 
-osg::ref_ptr<osg::Node> makeBackground() {
+osg::ref_ptr<osg::Node> makeBackground(int columns) {
   constexpr int kRows = 64;  // rows between which the sky's colour is nearly linear
-  osg::ref_ptr<osg::Geometry> sky = clipSpaceSheet(kRows);
+  osg::ref_ptr<osg::Geometry> sky = clipSpaceSheet(kRows, columns);
   osg::StateSet* state = sky->getOrCreateStateSet();
   state->setAttributeAndModes(shaders::background());
   // drawn after everything that hides it, so that hidden pixels cost nothing

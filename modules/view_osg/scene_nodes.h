@@ -63,11 +63,11 @@ double lowestPoint(const World& world);
 double floorHeight(const World& world);
 
 /// A rectangle over the whole picture, from (-1, -1) to (1, 1), for shaders with positions in clip space; texture
-/// coordinates from 0 to 1. `rows`: number of subdivisions in height.
-osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows);
+/// coordinates from 0 to 1. `rows`, `columns`: number of subdivisions in height and width.
+osg::ref_ptr<osg::Geometry> clipSpaceSheet(int rows, int columns = 1);
 
-/// Gradient behind everything.
-osg::ref_ptr<osg::Node> makeBackground();
+/// Gradient behind everything. Its colours are linear between `columns`, too: 1 for a camera that stands upright.
+osg::ref_ptr<osg::Node> makeBackground(int columns = 1);
 
 /// Floor with a grid under the lowest body at its start pose, fading into the background. Shadows fall within `shadows`
 /// of its middle [m].

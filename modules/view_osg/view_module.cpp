@@ -55,16 +55,7 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
-    const bool nameless = options_.participant || forVisitors(*world_);
-    renderer_ = windowed()
-                    ? makeWindowRenderer(*picture_, nameless ? "Presa" : "Presa: " + world_->scene.name,
-                                         {.pointer = pointer_ ? &*pointer_ : nullptr,
-                                          .time = time_,
-                                          .undo = world_->scene.assembly.has_value(),
-                                          .participant = options_.participant.has_value(),
-                                          .visitor = forVisitors(*world_)},
-                                         options_.picture)
-                    : makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
+    renderer_ = makeRenderer();
   } catch (const InputError&) {
     throw;  // a driver's figure
   } catch (const std::exception& error) {
@@ -76,13 +67,27 @@ void ViewModule::start() {
   }
 }
 
+std::unique_ptr<Renderer> ViewModule::makeRenderer() {
+  const std::string title = "Presa: " + world_->scene.name;
+  if (canvas_ != nullptr) return makeWallRenderer(*picture_, *canvas_, windowed(), title);
+  if (!windowed()) return makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
+  const bool nameless = options_.participant || forVisitors(*world_);
+  return makeWindowRenderer(*picture_, nameless ? "Presa" : title,
+                            {.pointer = pointer_ ? &*pointer_ : nullptr,
+                             .time = time_,
+                             .undo = world_->scene.assembly.has_value(),
+                             .participant = options_.participant.has_value(),
+                             .visitor = forVisitors(*world_)},
+                            options_.picture);
+}
+
 void ViewModule::step(const Tick& tick) noexcept {
   if (!renderer_ || broken_) return;
   try {
     copyPorts(tick);
     picture_->follow(frame_, timings_);
     if (plugin_parts_) plugin_parts_->follow(frame_);
-    if (windowed() && (time_ == nullptr || !time_->skip_picture)) drawWindow();
+    if ((windowed() || canvas_ != nullptr) && (time_ == nullptr || !time_->skip_picture)) drawWindow();
     if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();
     saveSeries();

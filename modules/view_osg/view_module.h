@@ -43,8 +43,10 @@ class ViewModule final : public View {
   void offerPointer(const std::vector<std::size_t>& fingers) override;
   void offerTime(TimeControl& time_control, double length) noexcept override;
   void refresh() noexcept override;
+  void drawOnWall(walls::Canvas& canvas) noexcept override { canvas_ = &canvas; }
 
  private:
+  std::unique_ptr<Renderer> makeRenderer();
   bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
   void drawWindow();
@@ -67,7 +69,8 @@ class ViewModule final : public View {
   std::optional<Out<PointerState>> pointer_out_;            ///< only with a pointer device
   std::optional<PointerControl> pointer_;
   TimeControl* time_ = nullptr;
-  double length_ = 0;  ///< length of the recording [s]; 0: a run
+  walls::Canvas* canvas_ = nullptr;  ///< only on a wall
+  double length_ = 0;                ///< length of the recording [s]; 0: a run
   In<JointPositions> joint_positions_{*this, kJointPositionsPort, In<JointPositions>::Optional{}};
   In<GuideState> guidance_{*this, "guidance", In<GuideState>::Optional{}};
 

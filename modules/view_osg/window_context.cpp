@@ -8,14 +8,16 @@
 namespace presa::view {
 namespace {
 
-osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, const WindowPlace& place, unsigned samples) {
+osg::ref_ptr<osg::GraphicsContext> createWindow(const std::string& title, const WindowPlace& place, unsigned samples,
+                                                bool decorated = true, bool quad = false) {
   osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
   traits->readDISPLAY();
   traits->x = place.x;
   traits->y = place.y;
   traits->width = place.width;
   traits->height = place.height;
-  traits->windowDecoration = true;
+  traits->windowDecoration = decorated;
+  traits->quadBufferStereo = quad;
   traits->doubleBuffer = true;
   traits->depth = 24;
   traits->samples = samples;
@@ -33,15 +35,18 @@ bool isSoftware(osg::GraphicsContext& window) {
   return renderer.find("llvmpipe") != renderer.npos || renderer.find("softpipe") != renderer.npos;
 }
 
-/// On the screen of the environment's display. Call while a window is open on it: see openWindow.
-WindowPlace placeOnScreen(int width, int height) {
+struct ScreenSize {
+  int width = 0, height = 0;
+};
+/// Of the environment's display. Call while a window is open on it: see openWindow.
+ScreenSize screenSize() {
   osg::GraphicsContext::ScreenIdentifier screen;
   screen.readDISPLAY();
   screen.setUndefinedScreenDetailsToDefaultScreen();
   unsigned screen_width = 0, screen_height = 0;
   if (auto* system = osg::GraphicsContext::getWindowingSystemInterface())
     system->getScreenResolution(screen, screen_width, screen_height);
-  return fitted(width, height, static_cast<int>(screen_width), static_cast<int>(screen_height));
+  return {static_cast<int>(screen_width), static_cast<int>(screen_height)};
 }
 
 std::string whyNoWindow() {
@@ -76,7 +81,8 @@ WindowContext openWindow(const std::string& title, int width, int height) {
   const WindowPlace wanted = fitted(width, height, 0, 0);
   WindowContext plain{createWindow(title, wanted, 0)};
   if (!plain.context) throw std::runtime_error(whyNoWindow());
-  const WindowPlace place = placeOnScreen(width, height);
+  const ScreenSize screen = screenSize();
+  const WindowPlace place = fitted(width, height, screen.width, screen.height);
   if (place != wanted) {
     const osg::ref_ptr<osg::GraphicsContext> smaller = createWindow(title, place, 0);
     if (!smaller) throw std::runtime_error(whyNoWindow());
@@ -89,6 +95,20 @@ WindowContext openWindow(const std::string& title, int width, int height) {
   if (!smooth || !smooth->realize()) return plain;
   plain.context->close();
   return {smooth, false};
+}
+
+WindowContext wallWindow(const std::string& title, int width, int height, bool quad) {
+  WindowContext wall{createWindow(title, {0, 0, width, height}, 0, true, quad)};
+  if (!wall.context && quad) return wall;
+  if (!wall.context) throw std::runtime_error(whyNoWindow());
+  if (const ScreenSize screen = screenSize(); screen.width == width && screen.height == height) {
+    const osg::ref_ptr<osg::GraphicsContext> plain = createWindow(title, {0, 0, width, height}, 0, false, quad);
+    if (!plain) throw std::runtime_error(whyNoWindow());
+    wall.context->close();
+    wall.context = plain;
+  }
+  wall.software = isSoftware(*wall.context);
+  return wall;
 }
 
 WindowContext participantWindow(const std::string& title, int width, int height) {

@@ -22,6 +22,10 @@ WindowPlace fitted(int width, int height, int screen_width, int screen_height);
 /// such a visual; smaller than asked where the screen is (fitted). Throws std::runtime_error with the reason. `title` in ASCII: OSG hands it to X as Latin-1.
 WindowContext openWindow(const std::string& title, int width, int height);
 
+/// A window of exactly this size, for a wall of a CAVE: without decoration where it fills the screen. `quad`: with left
+/// and right buffers; no context where the driver has none. Otherwise as openWindow.
+WindowContext wallWindow(const std::string& title, int width, int height, bool quad);
+
 /// The window of this process for the participant of an experiment: opened at the first call and whenever it was closed.
 /// Otherwise it stays open until the process ends, with what was drawn last. Thread: one at a time.
 WindowContext participantWindow(const std::string& title, int width, int height);

@@ -62,9 +62,10 @@ const std::vector<Arrows>& arrows() {
       {"framework/bus/",
        {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/", "framework/device/",
         "framework/record/"}},
+      {"framework/walls/", {"framework/core/", "framework/scene/", "framework/device/", "framework/bus/"}},
       {"framework/session/",
        {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/", "framework/assembly/",
-        "framework/device/", "framework/haptics/", "framework/record/"}},
+        "framework/device/", "framework/haptics/", "framework/record/", "framework/walls/"}},
       {"modules/", {"framework/"}},
       {"devices/", {"framework/", "devices/hand/"}},
       // a model of a device implements the narrow interface of the device's driver

@@ -11,6 +11,7 @@
 #include "framework/scene/load.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/xml/xml.h"
+#include "framework/walls/walls.h"
 
 namespace presa::check {
 namespace {
@@ -93,6 +94,7 @@ FileKind kindOf(const std::string& file) {
   const std::string root = document ? document->root().name() : "";
   if (root == "rig") return FileKind::kRig;
   if (root == "motion") return FileKind::kMotion;
+  if (root == "walls") return FileKind::kWalls;
   return root == "experiment" ? FileKind::kExperiment : FileKind::kScene;
 }
 
@@ -111,6 +113,11 @@ std::string checkRig(const std::string& file, Diagnostics& diagnostics) {
   for (const std::string& motion : motions) checkMotion(motion, diagnostics);
   return format("%zu device%s, %zu motion%s", rig.devices.size(), rig.devices.size() == 1 ? "" : "s", motions.size(),
                 motions.size() == 1 ? "" : "s");
+}
+
+std::string checkWalls(const std::string& file, Diagnostics& diagnostics) {
+  const std::size_t count = walls::loadWalls(file, diagnostics).walls.size();
+  return format("%zu wall%s", count, count == 1 ? "" : "s");
 }
 
 }  // namespace presa::check

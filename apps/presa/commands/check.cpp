@@ -74,11 +74,11 @@ Checked checkScene(const std::string& file, const CheckArguments& arguments) {
   return checked;
 }
 
-Checked checkAlone(const std::string& file, const std::string& kind, const CheckArguments& arguments) {
+Checked checkAlone(const std::string& file, const std::string& kind,
+                   std::string (*check)(const std::string&, Diagnostics&), const CheckArguments& arguments) {
   Diagnostics diagnostics;
   Checked checked;
-  checked.good =
-      kind + ", " + (kind == "rig" ? check::checkRig(file, diagnostics) : check::checkMotion(file, diagnostics));
+  checked.good = kind + ", " + check(file, diagnostics);
   checked.report = findingsJson(file, kind, diagnostics);
   printText(diagnostics, arguments);
   return checked;
@@ -87,9 +87,11 @@ Checked checkAlone(const std::string& file, const std::string& kind, const Check
 Checked checkOne(const std::string& file, const CheckArguments& arguments) {
   switch (check::kindOf(file)) {
     case check::FileKind::kRig:
-      return checkAlone(file, "rig", arguments);
+      return checkAlone(file, "rig", check::checkRig, arguments);
     case check::FileKind::kMotion:
-      return checkAlone(file, "motion", arguments);
+      return checkAlone(file, "motion", check::checkMotion, arguments);
+    case check::FileKind::kWalls:
+      return checkAlone(file, "walls", check::checkWalls, arguments);
     case check::FileKind::kExperiment: {  // its reader belongs to another program
       Checked checked;
       checked.report = check::askExperiment(file, arguments.rig, arguments.format);
@@ -132,8 +134,9 @@ int checkAll(const CheckArguments& arguments) {
 void addCheck(Command app, int& status) {
   auto arguments = std::make_shared<CheckArguments>();
   Command command = app.command(
-      "check", "Read scenes with their rigs and meshes, rigs, motions and experiments; tell all that is wrong");
-  command.option("FILE", arguments->files, "scene, rig, motion or experiment files").required();
+      "check",
+      "Read scenes with their rigs and meshes, rigs, motions, experiments and walls of a CAVE; tell all that is wrong");
+  command.option("FILE", arguments->files, "files of scenes, rigs, motions, experiments or walls").required();
   command.option("--rig", arguments->rig, "rig file instead of the one that a scene or an experiment names");
   command.option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
   command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});

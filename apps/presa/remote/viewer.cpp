@@ -23,6 +23,8 @@ namespace {
 
 using bus::RemotePicture;
 
+constexpr std::int64_t kPoll = 1'000'000;  ///< of a process of a CAVE [ns]
+
 /// Writes the remote states to the ports that a view reads. Runs in the view group, before the view.
 class RemoteSource final : public Module {
  public:
@@ -32,6 +34,7 @@ class RemoteSource final : public Module {
     picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
     if (view_ != nullptr) view_->setBanner(picture_.line(), picture_.alarm());
   }
+  const ObjectState& objects() const { return objects_.value; }
 
  private:
   RemotePicture& picture_;
@@ -72,12 +75,20 @@ class Viewer {
   Viewer(const ViewerSettings& settings, bus::Reader& reader, const bus::RunInfo& run)
       : settings_(settings), reader_(reader), world_(worldOf(settings, run)), picture_(*world_) {
     picture_.onRun(run, monotonicNs());
+    if (!settings.cave.walls.empty()) {
+      CaveSettings cave = settings.cave;
+      cave.max_rate = world_->scene.rates.view;
+      cave_ = std::make_unique<Cave>(cave, settings.bus);
+    }
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
-    builder.add(std::make_unique<RemoteSource>(picture_, view_));
+    auto source = std::make_unique<RemoteSource>(picture_, view_);
+    source_ = source.get();
+    builder.add(std::move(source));
     if (world_->scene.assembly) builder.add(std::make_unique<GuideModule>(world_));
     auto view = makeView(world_, optionsOf(settings));
     view_ = view.get();
+    if (cave_ != nullptr) view_->drawOnWall(*cave_->canvas());
     builder.add(std::move(view));
     builder.connectByName();
     graph_ = builder.build();
@@ -93,18 +104,23 @@ class Viewer {
     while (!done(begin)) {
       reader_.take(picture_);
       picture_.advance(monotonicNs());
-      tick.time = picture_.time();
-      graph_.step(RateGroup::kView, tick);
-      ++tick.index;
+      if (cave_ == nullptr || cave_->next(picture_, monotonicNs())) {
+        tick.time = picture_.time();
+        graph_.step(RateGroup::kView, tick);
+        ++tick.index;
+        if (cave_ != nullptr) cave_->drawn(drawnState(source_->objects()), monotonicNs());
+      }
       if (!settings_.quiet && monotonicNs() >= next_line) {
         say();
         next_line = monotonicNs() + (isatty(STDERR_FILENO) != 0 ? 100'000'000 : 2'000'000'000);
       }
-      next = std::max(next + static_cast<std::int64_t>(period * 1e9), monotonicNs());
+      // walls wait for each other's messages
+      next = std::max(next + (cave_ == nullptr ? static_cast<std::int64_t>(period * 1e9) : kPoll), monotonicNs());
       if (picture_.state() != RemotePicture::State::kEnded) sleepUntilNs(next);
     }
     graph_.stop(RateGroup::kView);
     if (!settings_.quiet) say(true);
+    if (cave_ != nullptr) std::fprintf(stderr, "%s\n", cave_->summary().c_str());
     return verdict();
   }
 
@@ -117,8 +133,10 @@ class Viewer {
   }
   void say(bool last = false) const {
     const bool terminal = isatty(STDERR_FILENO) != 0;
-    std::fprintf(stderr, terminal ? "\r\033[K%8.3f s  %s%s" : "%8.3f s  %s%s\n", picture_.time(),
-                 picture_.line().c_str(), terminal && last ? "\n" : "");
+    std::string line = picture_.line();
+    if (cave_ != nullptr) line += "; " + cave_->line(monotonicNs());
+    std::fprintf(stderr, terminal ? "\r\033[K%8.3f s  %s%s" : "%8.3f s  %s%s\n", picture_.time(), line.c_str(),
+                 terminal && last ? "\n" : "");
   }
   int verdict() const {
     if (picture_.wrongScene()) return kExitBadInput;
@@ -134,7 +152,9 @@ class Viewer {
   bus::Reader& reader_;
   std::shared_ptr<const World> world_;
   RemotePicture picture_;
-  View* view_ = nullptr;  // owned by the graph
+  View* view_ = nullptr;  // owned by the graph, as the source
+  RemoteSource* source_ = nullptr;
+  std::unique_ptr<Cave> cave_;  // the view draws on its canvas
   Graph graph_;
   int drawn_end_ = 0;
 };

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/presa/remote/cave.h"
 #include "framework/scene/run_options.h"
 
 namespace presa {
@@ -19,6 +20,7 @@ struct ViewerSettings {
   std::vector<std::string> show;  ///< as RunOptions
   PictureOptions picture;
   bool quiet = false;
+  CaveSettings cave;
 };
 
 inline constexpr int kExitNoRun = 3;
