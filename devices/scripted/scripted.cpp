@@ -30,6 +30,7 @@ class ScriptedFinger final : public Device {
     advance(tick);
     const MotionTarget target = hand_.motion().at(tick.time);
     FingerInput input{plant_.position(), plant_.velocity(), target.phase, tick.time < lost_at_};
+    input.buttons = hand_.motion().buttonsIn(target.phase);
     if (turn_) {
       input.oriented = true;
       input.q_WT = turn_->orientation(target.q_WT);
@@ -46,6 +47,7 @@ class ScriptedFinger final : public Device {
   std::vector<std::string> phases() const override { return hand_.motion().phase_names; }
   std::vector<double> phaseTimes() const override { return hand_.motion().phase_times; }
   std::vector<PhaseIntent> phaseIntents() const override { return hand_.motion().phase_intents; }
+  int buttons() const override { return hand_.motion().buttons(); }
   bool measuresOrientation() const override { return turn_.has_value(); }
   std::string model() const override { return "scripted fingers: no person"; }
   double damping() const override { return damping_; }
