@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "framework/device/frame_motion.h"
-#include "framework/device/frame_state.h"
 #include "framework/device/pointer_state.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/scene.h"
 
 namespace presa {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "framework/device/frame_state.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/scene.h"
 
 namespace presa {

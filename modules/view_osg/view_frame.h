@@ -6,7 +6,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/finger_neighbourhood.h"
-#include "framework/device/frame_state.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/joints/joint_positions.h"
 
 namespace presa::view {

@@ -7,7 +7,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
-#include "framework/device/frame_state.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
