@@ -109,7 +109,8 @@ Quat FrameAxes::deviceAxes(const ViewFrame& frame, std::size_t finger) const {
   const FingerInput& input = frame.device.fingers[finger];
   if (input.oriented) return input.q_WT;
   const std::size_t n = stands_[finger];
-  return frame.frames != nullptr && n < frame.frames->frames.size() ? frame.frames->frames[n].X_WF.q : Quat::Identity();
+  if (frame.frames == nullptr || n >= frame.frames->frames.size()) return Quat::Identity();
+  return frame.frames->frames[n].X_WF.q;
 }
 
 void FrameAxes::showFingers(const ViewFrame& frame) {
