@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -10,7 +11,10 @@
 
 #include "framework/device/frame_watch.h"
 #include "framework/device/wrapped_device.h"
+#include "framework/record/record_plugin.h"
+#include "framework/session/replay.h"
 #include "framework/session/run.h"
+#include "framework/session/stiffness_bound.h"
 
 namespace presa {
 namespace {
@@ -177,6 +181,66 @@ TEST(DrivenFrames, ARestlessUserGetsNoStepAndNoEnergy) {
     EXPECT_LE(hand.at("force"), kForce * (1 + 1e-9));
     EXPECT_LE(hand.at("energy"), 0);
   }
+}
+
+// A button that no device of the frame has; a device in another frame does not count.
+TEST(DrivenFrames, AButtonThatNoDeviceHasIsAnErrorAtItsPlace) {
+  setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1);
+  const std::string scene_file = write("button.xml", scene(kCube, kTwo)), motion = graspMotion();
+  std::string text = rig(device("thumb", motion, 0, 1, 1) + device("index", motion, 0, 1, 2));
+  text.replace(text.find("<clutch button=\"1\"/>"), 20, "\n<clutch button=\"4\"/>");
+  const std::string rig_file = write("button_rig.xml", text);
+  Diagnostics diagnostics;
+  loadWorld({scene_file, rig_file, {}}, {}, diagnostics);
+  EXPECT_NE(diagnostics.text().find(rig_file + ":2:9: error[E467]: no device in frame 'desk' has a button 4"),
+            std::string::npos)
+      << diagnostics.text();
+}
+
+// The force limit of the device holds at the largest scale, and a spring is felt with its square.
+TEST(DrivenFrames, LimitsAndStiffnessAreThoseOfTheLargestScale) {
+  setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1);
+  const std::string scene_file = write("limits.xml", scene(kCube, kTwo)), motion = graspMotion();
+  const std::string rig_file =
+      write("limits_rig.xml", rig(device("thumb", motion, 0, 1, 1) + device("index", motion, 0, 1, 2)));
+  Diagnostics diagnostics;
+  const Loaded loaded = loadWorld({scene_file, rig_file, {}}, {}, diagnostics);
+  std::vector<std::string> notes;
+  const auto safety = safetyOf(*loaded.world, {}, notes, diagnostics);
+  EXPECT_NEAR(safety[0].limits.force, kForce / 2, 1e-12);
+  EXPECT_NEAR(safety[0].limits.force_rate, kRate / 2, 1e-9);
+  const StiffnessBound bound = stiffnessBound(loaded.devices, loaded.plan, loaded.world->scene);
+  EXPECT_NEAR(bound.stiffness, loaded.devices[0]->damping() / 4 / (0.5 * 1e-3), 1e-9) << "K_max = b / (s^2 T / 2)";
+}
+
+// A recording has the frames of the rig, at every tick, and replays to the bit without them.
+TEST(DrivenFrames, AreRecordedAndReplayed) {
+  setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1);
+  const std::string motion = pokes(), file = testing::TempDir() + "presa_frames_" + std::to_string(getpid()) + ".h5";
+  const std::string scene_file = write("recorded.xml", scene(room(), kTwo));
+  const std::string rig_file =
+      write("recorded_rig.xml", rig(device("thumb", motion, 0, 60, 3) + device("index", motion, 0, 60, 4)));
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.duration = 5;
+  options.record = file;
+  options.overwrite = true;
+  RunControl control;
+  Run run(loadWorld({scene_file, rig_file, {}}, options, diagnostics), control);
+  run.execute();
+  const RecordedSamples samples = recordPlugin().samples(file);
+  ASSERT_EQ(samples.frames.size(), 2U);
+  EXPECT_EQ(samples.frames[1].name, "desk");
+  const FrameNow& last = run.session().frames()->last().frames[1];
+  EXPECT_NE(last.zoom, 1);
+  EXPECT_EQ(samples.frames[1].values("zoom").back(), last.zoom);
+  EXPECT_EQ(samples.frames[1].values("p_WF_x").back(), last.X_WF.p.x());
+  EXPECT_EQ(samples.frames[1].values("uses").back(), last.uses);
+  const Recording recording = recordPlugin().read(file);
+  RecordedRun again(recording, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  EXPECT_TRUE(again.run().verified());
+  std::remove(file.c_str());
 }
 
 }  // namespace
