@@ -80,7 +80,14 @@ struct RunResult {
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
   const BoundedList<TraceSample>* trace = nullptr;  ///< null: none
-  const JointLog* joints = nullptr;                 ///< null: the scene has none
+  /// A frame of the rig that its user may move.
+  struct DrivenFrame {
+    std::string name;
+    std::uint32_t uses = 0, refusals = 0;  ///< walks, clutches and zooms begun, and those that a force held up
+    double zoom = 1;                       ///< at the end
+  };
+  std::vector<DrivenFrame> frames;
+  const JointLog* joints = nullptr;  ///< null: the scene has none
   std::vector<Fault> faults;
   std::vector<std::string> load_warnings;  ///< repaired meshes and the like, as printed ("a.xml:1:2: warning[W307]: …")
   std::vector<std::string> notes;          ///< stiffness bounds, raised damping, skipped parts, …

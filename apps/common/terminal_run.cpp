@@ -17,6 +17,8 @@
 #include "apps/common/version.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/device/device_modules.h"
+#include "framework/device/frame_watch.h"
+#include "framework/device/frame_words.h"
 #include "framework/session/realtime_policy.h"
 
 namespace presa {
@@ -104,6 +106,8 @@ struct TerminalRun::Live {
   std::atomic<std::int32_t> filled{0};  // filled places of the assembly
   std::shared_ptr<const World> world;   // of the joints
   std::optional<JointLog> joints;       // only in a scene with joints
+  std::vector<std::uint32_t> doing;     // with the frames of the rig, when it was last said
+  std::int64_t said_ns = 0;
   std::int64_t start_ns = 0;
   explicit Live(bool quiet) : line(quiet) {}
 };
@@ -238,6 +242,7 @@ void TerminalRun::poll() {
   }
   if (run_->session().view() != nullptr && run_->session().view()->wantsStop()) control_.stop_requested = true;
   noteObjectFaults();
+  noteFrames();
   const char key = live_->keys ? live_->keys->next(0) : '\0';
   if (key == 'r') rearm();
   if (settings_.watch && !settings_.watch(run_->session(), key)) control_.stop_requested = true;
@@ -284,6 +289,32 @@ void TerminalRun::showStatus() {
   live_->line.show(status);
 }
 
+/// One sentence when a user begins something else with a frame, at most one a second.
+void TerminalRun::noteFrames() {
+  const FrameWatch* frames = run_->session().frames();
+  if (frames == nullptr || monotonicNs() - live_->said_ns < 1'000'000'000) return;
+  const auto& all = run_->world().rig.frames;
+  live_->doing.resize(all.size());
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const FrameNow now = frames->now(n);
+    if (std::exchange(live_->doing[n], now.doing) == now.doing || now.doing == 0) continue;
+    live_->line.note(frameSentence(all[n], now));
+    live_->said_ns = monotonicNs();
+  }
+}
+
+void TerminalRun::takeFrames() {
+  const FrameWatch* watch = run_->session().frames();
+  if (watch == nullptr) return;
+  for (std::size_t n = 0; n < watch->last().frames.size(); ++n) {
+    const Frame& frame = run_->world().rig.frames[n];
+    if (!frame.driven()) continue;
+    const FrameNow& last = watch->last().frames[n];
+    result_.frames.push_back({frame.name, last.uses, last.refusals, last.zoom});
+    result_.notes.push_back(frameSummary(frame, last));
+  }
+}
+
 void TerminalRun::noteBrokenPlugin() {
   const auto name = run_->session().brokenPlugin();
   if (!name || effect_reported_) return;
@@ -327,6 +358,7 @@ void TerminalRun::finish() {
   }
   takeMonitor(run_->session().monitor(), result_);
   if (live_->joints) result_.joints = &*live_->joints;
+  takeFrames();
   if (const auto& assembly = run_->world().scene.assembly)
     result_.assembly = {static_cast<int>(assembly->goals.size()), live_->filled.load(std::memory_order_relaxed)};
   if (Recorder* recorder = run_->session().recorder()) {

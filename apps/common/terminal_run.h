@@ -45,6 +45,8 @@ class TerminalRun {
   void finish();
   void noteBrokenPlugin();
   void noteObjectFaults();
+  void noteFrames();
+  void takeFrames();
   void fail(double time, std::string what);
   void rearm();
   void offerToCommands();

@@ -46,7 +46,7 @@ class Hand {
   virtual HandPush live(const Tick& tick) noexcept = 0;
 
   virtual int phase(double /*time*/) const noexcept { return -1; }                   ///< FingerInput::phase
-  virtual std::uint32_t buttons() const noexcept { return 0; }                       ///< FingerInput::buttons
+  virtual std::uint32_t pressed(double /*time*/) const noexcept { return 0; }        ///< FingerInput::buttons
   virtual double lostAt() const { return std::numeric_limits<double>::infinity(); }  ///< rehearses a lost device [s]
   /// Where the fingertip will be at which times, as far as it is known before the run.
   struct Place {
@@ -56,6 +56,7 @@ class Hand {
   virtual std::vector<Place> path() const { return {{0, start()}}; }
 
   // as in Device
+  virtual int buttons() const { return 0; }
   virtual bool looks() const { return false; }
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
   virtual bool points() const { return false; }

@@ -7,7 +7,7 @@
 namespace presa {
 namespace {
 
-enum HandCode { kNoSuchHand = 465 };
+enum HandCode { kNoSuchHand = 430 };
 constexpr const char* kHand = "hand";
 constexpr const char* kDefaultHand = "scripted";
 

@@ -24,7 +24,7 @@ struct HandPlugin {
                      const RunOptions& options, Diagnostics& diagnostics) = nullptr;
 };
 
-/// The fingers that the bindings name by their setting `hand` (default: scripted), in the order of `thimbles`. E465: no
+/// The fingers that the bindings name by their setting `hand` (default: scripted), in the order of `thimbles`. E430: no
 /// such hand. Null where there is an error.
 HandList makeHands(const std::vector<Thimble>& thimbles, const std::shared_ptr<const World>& world,
                    const RunOptions& options, Diagnostics& diagnostics);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,10 +36,14 @@ class Motion {
   virtual ~Motion() = default;
   virtual MotionTarget at(double time) const noexcept = 0;
   virtual FingerImpedance impedance() const { return {}; }
+  /// Buttons that the hand holds in a phase, as FingerInput::buttons, and the number of buttons that it has.
+  std::uint32_t buttonsIn(int phase) const noexcept;
+  int buttons() const noexcept;
   std::vector<std::string> phase_names;
-  bool oriented = false;                   ///< the motion says how the tool turns
-  std::vector<PhaseIntent> phase_intents;  ///< of each phase
-  std::vector<double> phase_times;         ///< start of each phase, then the end of the last one [s]
+  bool oriented = false;                     ///< the motion says how the tool turns
+  std::vector<PhaseIntent> phase_intents;    ///< of each phase
+  std::vector<std::uint32_t> phase_buttons;  ///< that the hand holds during each phase; shorter: none in the others
+  std::vector<double> phase_times;           ///< start of each phase, then the end of the last one [s]
 
  protected:
   /// Phase at a time; after the end, the last phase.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "devices/hand/motion.h"
@@ -11,6 +12,17 @@ int Motion::phaseAt(double time) const noexcept {
   const auto after = std::upper_bound(phase_times.begin(), phase_times.end(), time);
   const auto index = static_cast<int>(after - phase_times.begin()) - 1;
   return std::clamp(index, 0, static_cast<int>(phase_names.size()) - 1);
+}
+
+std::uint32_t Motion::buttonsIn(int phase) const noexcept {
+  const auto index = static_cast<std::size_t>(phase);  // -1 is beyond the end
+  return index < phase_buttons.size() ? phase_buttons[index] : 0;
+}
+
+int Motion::buttons() const noexcept {
+  int count = 0;
+  for (const std::uint32_t held : phase_buttons) count = std::max(count, static_cast<int>(std::bit_width(held)));
+  return count;
 }
 
 namespace {
@@ -45,6 +57,7 @@ class PhasedMotion final : public Motion {
       knots_.push_back(pose);
       phase_names.push_back(phase.attribute("name"));
       phase_intents.push_back(phaseIntentOf(phase.attribute("intent")).value_or(PhaseIntent::kNone));
+      phase_buttons.push_back(phase.hasAttribute("press") ? 1U << static_cast<unsigned>(phase.number("press", 0)) : 0U);
       phase_times.push_back(time);
       time += phase.number("duration", 0);
     }

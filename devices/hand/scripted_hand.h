@@ -18,6 +18,8 @@ class ScriptedHand : public Hand {
   HandPush live(const Tick& tick) noexcept override;
 
   int phase(double time) const noexcept override { return motion().at(time).phase; }
+  std::uint32_t pressed(double time) const noexcept override { return motion().buttonsIn(motion().at(time).phase); }
+  int buttons() const override { return motion().buttons(); }
   double lostAt() const override { return settings_.lost_at; }
   std::vector<Place> path() const override;
   std::string model() const override { return "scripted fingers: no person"; }

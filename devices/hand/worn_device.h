@@ -9,6 +9,7 @@ class WornDevice : public Device {
   explicit WornDevice(std::unique_ptr<Hand> hand) : hand_(std::move(hand)) {}
 
   void open() override { hand_->open(); }
+  int buttons() const override { return hand_->buttons(); }
   bool looks() const override { return hand_->looks(); }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { hand_->see(objects, tick); }
   bool points() const override { return hand_->points(); }
@@ -41,7 +42,7 @@ class WornDevice : public Device {
   /// The sample of a device that reports this position and velocity.
   FingerInput sample(const Vec3& p_WH, const Vec3& v_WH, const Tick& tick) const noexcept {
     FingerInput input{p_WH, v_WH, hand_->phase(tick.time), tick.time < hand_->lostAt()};
-    input.buttons = hand_->buttons();
+    input.buttons = hand_->pressed(tick.time);
     return input;
   }
   Hand& hand() noexcept { return *hand_; }

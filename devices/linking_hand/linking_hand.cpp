@@ -9,7 +9,7 @@
 namespace presa::linking {
 namespace {
 
-enum Code { kNotTwo = 467, kNoLeader = 468 };
+enum Code { kNotTwo = 390, kNoLeader = 391 };
 
 class LinkingHand final : public Hand {
  public:

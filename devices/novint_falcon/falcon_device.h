@@ -20,6 +20,7 @@ class FalconDevice final : public Device {
   void open() override;
   void close() noexcept override { io_.reset(); }
   FingerInput read(const Tick& tick) noexcept override;
+  int buttons() const override { return 4; }
   void write(const Wrench& F_H_W, const Tick& tick) noexcept override;
   std::vector<std::string> notes() const override;
 

@@ -20,7 +20,7 @@
 namespace presa {
 namespace {
 
-enum ArmCode { kNoPlace = 460, kBadPlace = 461, kOutOfReach = 462, kNoProperty = 466 };
+enum ArmCode { kNoPlace = 460, kBadPlace = 461, kOutOfReach = 462, kNoProperty = 446 };
 
 const Vec3 kGravity_W{0, 0, -9.81};  // of the room, independent of the scene
 

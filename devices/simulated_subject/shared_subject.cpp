@@ -53,7 +53,7 @@ FingerInput SharedSubject::read(int digit, const Tick& tick) noexcept {
   input.v_WH = hand_.vQ(digit) * inward + hand_.vY(digit) * Vec3::UnitZ();
   input.phase = static_cast<std::int32_t>(brain_.phase());
   input.valid = true;
-  input.buttons = buttons();
+  input.buttons = pressed();
   return input;
 }
 

@@ -54,7 +54,7 @@ class SharedSubject {
   /// Hand::live of such a digit.
   HandPush push(int digit, const Tick& tick) noexcept;
   /// Pressed while holding with the wanted min grip: "ready".
-  std::uint32_t buttons() const noexcept { return brain_.phase() == subject::Phase::kHold ? 1 : 0; }
+  std::uint32_t pressed() const noexcept { return brain_.phase() == subject::Phase::kHold ? 1 : 0; }
 
   const subject::Brain& brain() const noexcept { return brain_; }
   const SubjectSettings& settings() const noexcept { return settings_; }

@@ -84,7 +84,7 @@ class WornDigit final : public Hand {
   void feel(const Fingertip& tip) noexcept override { subject_->feel(digit_, tip); }
   HandPush live(const Tick& tick) noexcept override { return subject_->push(digit_, tick); }
   int phase(double /*time*/) const noexcept override { return static_cast<int>(subject_->brain().phase()); }
-  std::uint32_t buttons() const noexcept override { return subject_->buttons(); }
+  std::uint32_t pressed(double /*time*/) const noexcept override { return subject_->pressed(); }
 
   bool looks() const override { return digit_ == 0; }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { subject_->see(objects, tick); }

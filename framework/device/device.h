@@ -52,6 +52,9 @@ class Device {
   /// True if its samples are `oriented`. Constant.
   virtual bool measuresOrientation() const { return false; }
 
+  /// Number of buttons that the user can press; their bits in FingerInput::buttons count from 0. Constant.
+  virtual int buttons() const { return 0; }
+
   /// True for a finger moved with the mouse; it gets the pointer's state in point(), before read. False for hardware.
   virtual bool points() const { return false; }
   virtual void point(const PointerState& /*pointer*/, const Tick& /*tick*/) noexcept {}

@@ -1,21 +1,19 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "framework/core/math/spatial.h"
+#include "framework/core/schedule/tick.h"
+#include "framework/core/state/device_state.h"
+#include "framework/device/frame_drive.h"
+#include "framework/device/frame_motion.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
 
-/// Where a frame is in the world, and how it moves.
-struct FrameMotion {
-  Pose X_WF;
-  Vec3 v_WF = Vec3::Zero();  ///< of its origin [m/s]
-  Vec3 w_WF = Vec3::Zero();  ///< [rad/s]
-};
-
-/// The frames of a rig (figure 8 of the PERCRO paper: user, head, device): fixed, moved through keys, or carried by the
-/// tool of a role. A frame on a tool sees the newest sample of that tool.
+/// The frames of a rig (figure 8 of the PERCRO paper: user, head, device): fixed, moved through keys, moved by their user
+/// (FrameDrive), or carried by the tool of a role. A frame on a tool sees the newest sample of that tool.
 /// Thread: haptic, except for construction; nonblocking.
 class FrameTree {
  public:
@@ -28,20 +26,69 @@ class FrameTree {
   int find(const std::string& name) const;
   /// Whether some frame or device stands on the tool of this role.
   bool carries(std::size_t role) const noexcept { return carries_[role] != 0; }
+  /// Whether the device of this role stands in a frame that a user moves.
+  bool drives(std::size_t role) const noexcept { return !seats_[role].empty(); }
 
   /// Motion of a frame at `time` [s]. The index is that of find().
   FrameMotion at(int frame, double time) const noexcept;
   void setTool(std::size_t role, const FrameMotion& tool) noexcept { tools_[role] = tool; }
 
+  /// The sample of a driven role's device, in its own frame. The first one of a tick moves the frames that it is in.
+  void sampled(std::size_t role, const FingerInput& sample, const Tick& tick) noexcept;
+  /// The wrench on a driven role's tool, zero or not. True if it answers a step of a frame: the hand must not get it.
+  bool withholds(std::size_t role, bool felt) noexcept;
+  /// What the keys of the window say.
+  void wish(const FrameWish& wish) noexcept { wish_ = wish; }
+
+  /// The frames of the rig now, in its order; `state` is sized for them.
+  void tell(double time, FrameState& state) const noexcept;
+  std::size_t frames() const noexcept { return nodes_.size(); }
+
  private:
+  /// A device in a driven frame.
+  struct Seat {
+    std::size_t role = 0;
+    int frame = kWorld;  // in which it stands
+    FrameDrive::Hand hand;
+    std::uint32_t buttons = 0;
+    bool seen = false, valid = false;  // a sample has come; the last one was good
+    bool written = false, felt = false;
+  };
+  struct Drive {
+    explicit Drive(const Frame& frame) : motion(frame) {}
+    FrameDrive motion;
+    std::vector<Seat> seats;
+    std::uint64_t next_tick = 0;  // ticks before it have been stepped
+  };
   struct Node {
     Frame frame;
     int parent = kWorld;
+    std::optional<Drive> drive;
   };
+  struct SeatOf {
+    std::size_t node, seat;
+  };
+  void seat(std::size_t role, int frame);
+  FrameMotion inParent(const Node& node, double time) const noexcept;
+  std::optional<FrameMotion> within(int frame, std::size_t node, double time) const noexcept;
+  std::optional<FrameDrive::Hand> middle(std::size_t node, double time) const noexcept;
+  FrameWish wishFor(const Node& node) const noexcept;
+  void step(std::size_t node, const Tick& tick) noexcept;
+
   std::vector<std::string> roles_;
-  std::vector<Node> nodes_;         // find() gives them indices from roles_.size() on
-  std::vector<FrameMotion> tools_;  // by role
-  std::vector<char> carries_;       // by role
+  std::vector<Node> nodes_;                 // find() gives them indices from roles_.size() on
+  std::vector<FrameMotion> tools_;          // by role
+  std::vector<char> carries_;               // by role
+  std::vector<int> stands_;                 // by role: frame of its device
+  std::vector<std::vector<SeatOf>> seats_;  // by role
+  FrameWish wish_;
 };
+
+/// Smallest and largest scale, to the world, of the frames that the device of a role stands in; each at most and at
+/// least 1.
+struct ZoomRange {
+  double min = 1, max = 1;
+};
+ZoomRange zoomRange(const Rig& rig, const std::string& role);
 
 }  // namespace presa

@@ -8,7 +8,7 @@
 namespace presa {
 
 /// A device that stands in a frame of the rig, or whose tool carries one: samples go from the frame to the world, forces
-/// back. Around no other device: without frames nothing is in the tick.
+/// back, with the same power (FrameMotion). Around no other device: without frames nothing is in the tick.
 class FramedDevice final : public WrappedDevice {
  public:
   /// `frame`: index in the tree.
@@ -19,9 +19,9 @@ class FramedDevice final : public WrappedDevice {
     FingerInput sample = inner().read(tick);
     const FrameMotion frame = tree_->at(frame_, tick.time);
     q_WF_ = frame.X_WF.q;
-    const Vec3 arm = q_WF_ * sample.p_WH;
-    sample.p_WH = frame.X_WF.p + arm;
-    sample.v_WH = frame.v_WF + frame.w_WF.cross(arm) + q_WF_ * sample.v_WH;
+    scale_ = frame.scale;
+    sample.v_WH = frame.velocityAt(sample.p_WH, sample.v_WH);
+    sample.p_WH = frame.pointAt(sample.p_WH);
     if (sample.oriented) {
       sample.q_WT = q_WF_ * sample.q_WT;
       sample.w_WT = frame.w_WF + q_WF_ * sample.w_WT;
@@ -31,7 +31,7 @@ class FramedDevice final : public WrappedDevice {
   }
   void write(const Wrench& F_H_W, const Tick& tick) noexcept override {
     const Quat q_FW = q_WF_.conjugate();
-    inner().write({q_FW * F_H_W.f, q_FW * F_H_W.t}, tick);
+    inner().write({scale_ * (q_FW * F_H_W.f), q_FW * F_H_W.t}, tick);
   }
 
  private:
@@ -39,6 +39,7 @@ class FramedDevice final : public WrappedDevice {
   int frame_;
   std::size_t role_;
   Quat q_WF_ = Quat::Identity();  // of the last sample
+  double scale_ = 1;
 };
 
 }  // namespace presa

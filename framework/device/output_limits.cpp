@@ -11,7 +11,7 @@
 namespace presa {
 namespace {
 
-enum Code {
+enum OutputLimitsCode {
   kScenePastRating = 650,
   kRigPastRating = 651,
   kTooSlow = 652,

@@ -5,6 +5,14 @@
 
 namespace presa {
 
+/// What a user wants of the frames of a rig while keys or buttons are held.
+struct FrameWish {
+  Vec3 walk = Vec3::Zero();  ///< share of the speed along the frame's axes: x ahead, y to the left, z up; -1 to 1
+  double turn = 0;           ///< share of the rate about z; -1 to 1
+  double zoom = 0;           ///< 1: to the larger scale, -1: to the smaller
+  bool clutch = false;
+};
+
 /// Name of the port that carries a PointerState.
 inline constexpr const char* kPointerPort = "pointer_state";
 
@@ -18,6 +26,7 @@ struct PointerState {
   double closing = 0;          ///< 0: wide open; 1: closed as hard as the pair may
   double tilt = 0;             ///< of a stylus, from upright [rad]
   double wheel = 0;  ///< sum of all steps of closing, unbounded: counts them also where `closing` is at its end
+  FrameWish frames;  ///< of the frames of the rig that a user moves
 };
 
 }  // namespace presa

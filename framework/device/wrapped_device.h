@@ -19,6 +19,7 @@ class WrappedDevice : public Device {
   bool looks() const override { return device_->looks(); }
   void see(const ObjectState& objects, const Tick& tick) noexcept override { device_->see(objects, tick); }
   bool measuresOrientation() const override { return device_->measuresOrientation(); }
+  int buttons() const override { return device_->buttons(); }
   bool points() const override { return device_->points(); }
   void point(const PointerState& pointer, const Tick& tick) noexcept override { device_->point(pointer, tick); }
   std::string model() const override { return device_->model(); }

@@ -14,7 +14,7 @@
 namespace presa::input {
 namespace {
 
-enum Code { kNotRegular = 690, kTooLarge = 691, kTooSlow = 693 };
+enum InputCode { kNotRegular = 690, kTooLarge = 691, kTooSlow = 693 };
 constexpr std::size_t kBlock = std::size_t{1} << 16U;
 constexpr double kSlowest = 1e7;  // slowest accepted reading speed [bytes/s], far below any disk
 

@@ -21,6 +21,7 @@ namespace presa {
 struct RecordedDevices {
   std::vector<std::size_t> tools;                ///< roles whose devices measure their orientation, in order
   std::vector<std::vector<std::string>> phases;  ///< Device::phases() of each role; may be shorter
+  std::vector<std::string> frames{};             ///< names of the frames of the rig; empty: they are not in the run
 };
 
 struct RecorderStatus {
@@ -110,6 +111,7 @@ struct RecordedSamples {
   std::vector<RecordedTable> fingers;  ///< in the order of the scene's roles
   std::vector<RecordedTable> bodies;   ///< free bodies, in the order of the scene
   std::vector<RecordedTable> tools;    ///< of roles whose device measures its orientation
+  std::vector<RecordedTable> frames;   ///< of the rig; none before format 10
 };
 
 /// The record plug-in (HDF5), loaded when a run is recorded or replayed.

@@ -11,7 +11,7 @@ namespace {
 using xml::Element;
 using xml::splitWords;
 
-enum Code {
+enum AssemblyCode {
   kDuplicateGoal = 203,
   kUnknownBody = 214,
   kFixedBody = 215,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "framework/scene/scene_parts.h"
 
@@ -8,7 +9,21 @@ namespace {
 
 using xml::Element;
 
-enum Code { kUnknownFrame = 416, kFrameInItself = 417, kDuplicateFrame = 418, kFrameKeys = 419 };
+enum Code {
+  kUnknownFrame = 416,
+  kFrameInItself = 417,
+  kDuplicateFrame = 418,
+  kFrameKeys = 419,
+  kZoomBounds = 465,
+  kSameButton = 466,
+  kFrameSpeed = 468
+};
+
+/// Of a frame that moves by itself.
+Vec3 velocityOf(const Element& frame) {
+  const std::vector<double> v = frame.numbers("velocity");
+  return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : Vec3::Zero();
+}
 
 /// The frames and roles of a rig by name, with the element that says in which of them it stands.
 class FrameCheck {
@@ -30,6 +45,9 @@ class FrameCheck {
       if (element.name() != "frame") continue;
       checkOrientation(element, diagnostics_);
       checkKeys(element);
+      checkZoom(element);
+      checkButtons(element);
+      checkVelocity(element);
     }
   }
 
@@ -72,9 +90,75 @@ class FrameCheck {
     }
   }
 
+  void checkZoom(const Element& frame) {
+    for (const Element& zoom : frame.children("zoom")) {
+      if (!zoom.hasAttribute("min") || !zoom.hasAttribute("max") || zoom.flawed("min") || zoom.flawed("max")) continue;
+      if (zoom.number("min", 1) <= 1 && zoom.number("max", 1) >= 1) continue;
+      const bool below = zoom.number("min", 1) > 1;
+      diagnostics_.error(kZoomBounds, zoom.where(below ? "min" : "max"),
+                         "the zoom of frame " + quote(frame.attribute("name")) + " starts at 1, found min=\"" +
+                             zoom.attribute("min") + "\" max=\"" + zoom.attribute("max") + "\"",
+                         "min is at most 1, max at least 1");
+    }
+  }
+
+  /// The buttons of one frame: clutch and zoom must be told apart.
+  void checkButtons(const Element& frame) {
+    std::map<std::string, SourceLocation> used;
+    const auto take = [&](const Element& element, const std::string& attribute) {
+      if (!element.hasAttribute(attribute) || element.flawed(attribute)) return;
+      const auto [first, is_new] = used.try_emplace(element.attribute(attribute), element.where(attribute));
+      if (is_new) return;
+      diagnostics_.error(
+          kSameButton, element.where(attribute),
+          "button " + element.attribute(attribute) + " of frame " + quote(frame.attribute("name")) + " does two things",
+          "the first is in line " + std::to_string(first->second.line));
+    };
+    for (const Element& clutch : frame.children("clutch")) take(clutch, "button");
+    for (const Element& zoom : frame.children("zoom")) {
+      take(zoom, "in");
+      take(zoom, "out");
+    }
+  }
+
+  void checkVelocity(const Element& frame) {
+    constexpr double kFastest = 5;  // as the schema's bound of `speed` [m/s]
+    if (!frame.hasAttribute("velocity") || frame.flawed("velocity")) return;
+    if (velocityOf(frame).cwiseAbs().maxCoeff() <= kFastest) return;
+    diagnostics_.error(
+        kFrameSpeed, frame.where("velocity"),
+        "frame " + quote(frame.attribute("name")) + " would move with velocity=\"" + frame.attribute("velocity") + "\"",
+        "each component is at most 5 m/s");
+  }
+
   Diagnostics& diagnostics_;
   std::map<std::string, Element> named_;
 };
+
+/// Absent attribute: no button.
+Frame::Button readButton(const Element& element, const std::string& attribute) {
+  Frame::Button button;
+  if (!element.hasAttribute(attribute)) return button;
+  button.number = static_cast<int>(element.number(attribute, 0));
+  button.where = element.where(attribute);
+  return button;
+}
+
+void readDrive(const Element& element, Frame& frame) {
+  const std::string moves = element.attribute("moves");
+  if (moves == "walk") frame.moves = Frame::Moves::kWalk;
+  if (moves == "fly") frame.moves = Frame::Moves::kFly;
+  frame.speed = element.number("speed", 1);
+  frame.turn = element.number("turn_deg", 60) * std::numbers::pi / 180;
+  frame.drift = velocityOf(element);
+  for (const Element& clutch : element.children("clutch")) frame.clutch = readButton(clutch, "button");
+  for (const Element& zoom : element.children("zoom"))
+    frame.zoom = {.min = zoom.number("min", 1),
+                  .max = zoom.number("max", 1),
+                  .rate = zoom.number("rate", 2),
+                  .in = readButton(zoom, "in"),
+                  .out = readButton(zoom, "out")};
+}
 
 Frame readFrame(const Element& element) {
   Frame frame;
@@ -82,6 +166,7 @@ Frame readFrame(const Element& element) {
   frame.parent = element.attribute("in");
   frame.X_PF = readPose(element);
   for (const Element& key : element.children("key")) frame.keys.push_back({key.number("time", 0), readPose(key)});
+  readDrive(element, frame);
   return frame;
 }
 

@@ -239,10 +239,28 @@ struct Frame {
     double time = 0;  ///< [s]
     Pose X_PF;        ///< relative to Frame::X_PF
   };
+  enum class Moves { kNot, kWalk, kFly };
+  /// A button that the user holds; none: only the window's key does it.
+  struct Button {
+    std::optional<int> number{};  ///< bit of FingerInput::buttons
+    SourceLocation where;
+  };
+  struct Zoom {
+    double min = 1, max = 1;  ///< metres of the parent for one of the frame
+    double rate = 2;          ///< factor per second while a button is held
+    Button in, out;           ///< smaller and larger scale: what the hand does becomes finer, coarser
+  };
   std::string name;
-  std::string parent;     ///< kWorldFrame, a frame, or a role: then the frame moves with that role's tool
-  Pose X_PF;              ///< in the parent
-  std::vector<Key> keys;  ///< minimum-jerk from one to the next; empty: fixed
+  std::string parent;              ///< kWorldFrame, a frame, or a role: then the frame moves with that role's tool
+  Pose X_PF;                       ///< in the parent
+  std::vector<Key> keys;           ///< minimum-jerk from one to the next; empty: fixed
+  Moves moves = Moves::kNot;       ///< what its user may do with it: on its level plane and about z, or also along z
+  double speed = 1, turn = 1;      ///< of a user who moves it [m/s], [rad/s]
+  Vec3 drift = Vec3::Zero();       ///< velocity with which it moves by itself, in its own axes [m/s]
+  std::optional<Button> clutch{};  ///< while held, the frame slides back under the hand
+  std::optional<Zoom> zoom{};
+  /// Whether more than time moves it. Such a frame rests while a finger that stands in it feels a force.
+  bool driven() const { return moves != Moves::kNot || clutch || zoom || !drift.isZero(); }
 };
 
 /// One role bound to a driver, with the driver's own settings.

@@ -16,7 +16,7 @@
 namespace presa {
 namespace {
 
-enum Code { kNotConvex = 322, kFarFromMesh = 323 };
+enum WorldCode { kNotConvex = 322, kFarFromMesh = 323 };
 
 using MeshPointer = std::shared_ptr<const TriMesh>;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/device/frame_tree.h"
 #include "framework/haptics/body_effects.h"
 #include "framework/haptics/friction_laws.h"
 #include "framework/haptics/surface_effects.h"
@@ -209,7 +210,7 @@ std::vector<PlannedDevice> bindDevices(const Scene& scene, const Rig& rig, Diagn
                                          : "add <device role=\"" + role.role + "\" driver=\"…\"/> to " + rig.file);
       continue;
     }
-    devices.push_back({role.role, binding->driver, framesAbove(rig, *binding)});
+    devices.push_back({role.role, binding->driver, framesAbove(rig, *binding), zoomRange(rig, role.role).max});
   }
   return devices;
 }

@@ -18,6 +18,7 @@ struct PlannedModule {
 struct PlannedDevice {
   std::string role, driver;
   std::vector<std::string> frames;  ///< in which it stands, from the next one to the last before the world
+  double zoom = 1;                  ///< largest scale of these frames together
 };
 
 /// A plug-in that another one hosts: a force effect in the haptic tick, a part of the picture.

@@ -10,6 +10,8 @@
 #include "framework/device/device_modules.h"
 #include "framework/device/device_plugin.h"
 #include "framework/device/device_settings.h"
+#include "framework/device/driven_device.h"
+#include "framework/device/frame_watch.h"
 #include "framework/device/framed_device.h"
 #include "framework/device/supervision/supervised_device.h"
 #include "framework/device/transport_watch.h"
@@ -24,7 +26,7 @@
 namespace presa {
 namespace {
 
-enum SessionCode { kImpatient = 656 };
+enum SessionCode { kNoButton = 467, kImpatient = 656 };
 
 /// Null if the rig has no device for the role.
 const DeviceBinding* bindingOf(const Rig& rig, const std::string& role) {
@@ -82,6 +84,26 @@ void checkFrame(const Device* device, const DeviceBinding& binding, Diagnostics&
                     "such a driver stands in the world");
 }
 
+/// A button of a driven frame that no device in it has.
+void checkButtons(const Rig& rig, const DeviceList& devices, const Plan& plan, Diagnostics& diagnostics) {
+  for (const Frame& frame : rig.frames) {
+    int most = 0;
+    for (std::size_t f = 0; f < devices.size(); ++f)
+      if (std::ranges::find(plan.devices[f].frames, frame.name) != plan.devices[f].frames.end())
+        most = std::max(most, devices[f]->buttons());
+    const auto check = [&](const std::optional<Frame::Button>& button) {
+      if (!button || !button->number || *button->number < most) return;
+      diagnostics.error(kNoButton, button->where,
+                        "no device in frame '" + frame.name + "' has a button " + std::to_string(*button->number),
+                        most > 0 ? "its devices have buttons 0 to " + std::to_string(most - 1)
+                                 : "its devices have none; without the attribute the keys of the window do it");
+    };
+    check(frame.clutch);
+    if (frame.zoom) check(frame.zoom->in);
+    if (frame.zoom) check(frame.zoom->out);
+  }
+}
+
 }  // namespace
 
 DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOptions& options, const Plan& plan,
@@ -98,6 +120,8 @@ DeviceList createDevices(const std::shared_ptr<const World>& world, const RunOpt
       devices[roles[i]] = std::move(made[i]);
     }
   }
+  if (std::ranges::all_of(devices, [](const auto& device) { return device != nullptr; }))
+    checkButtons(world->rig, devices, plan, diagnostics);
   std::erase(devices, nullptr);
   return devices;
 }
@@ -160,6 +184,20 @@ void checkPatience(const Scene& scene, const DeviceRole& role, const FingerSafet
                  "rates/dynamics=\"" + shown(ages::kPeriods / safety.watchdog) + "\" or more");
 }
 
+/// A frame of scale s multiplies forces by s on their way to the device, and its velocities by s on their way to the
+/// world: the limits of the device hold at every scale.
+void limitForZoom(const ZoomRange& zoom, const std::string& role, OutputLimits& limits,
+                  std::vector<std::string>& notes) {
+  limits.speed *= zoom.min;
+  if (!(zoom.max > 1)) return;
+  limits.force /= zoom.max;
+  limits.force_rate /= zoom.max;
+  limits.continuous /= zoom.max;
+  notes.push_back(role + ": at most " + xml::numberText(limits.force) + " N in the scene: its frame zooms to " +
+                  xml::numberText(zoom.max) + " times, where the device gives " +
+                  xml::numberText(zoom.max * limits.force) + " N");
+}
+
 }  // namespace
 
 std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options, std::vector<std::string>& notes,
@@ -172,6 +210,7 @@ std::vector<FingerSafety> safetyOf(const World& world, const RunOptions& options
     checkPatience(world.scene, role, safety.back(), findings);
     safety.back().limits.force *= options.force_share;
     safety.back().limits.torque *= options.force_share;
+    limitForZoom(zoomRange(world.rig, role.role), role.role, safety.back().limits, notes);
   }
   return safety;
 }
@@ -186,7 +225,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   if (devices_.empty()) {
     devices_ = std::move(loaded.devices);
     if (options.open_devices) openDevices();
-    putIntoFrames();
+    putIntoFrames(safety);
   }
   if (options.wrap) devices_ = options.wrap(std::move(devices_));
   for (std::size_t f = 0; f < devices_.size(); ++f) {
@@ -197,6 +236,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   }
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
+  if (frames_) frame_watch_ = &builder.add(std::make_unique<FrameWatch>(frames_));
   if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone))
     builder.add(std::make_unique<GuideModule>(world_));
   for (const PlannedModule& planned : plan_.modules) builder.add(load(planned));
@@ -216,9 +256,13 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
 
 void Session::offerPointer() {
   std::vector<std::size_t> fingers;
+  bool drives = false;
   for (std::size_t f = 0; f < devices_.size(); ++f) {
-    if (devices_[f]->points()) fingers.push_back(f);
+    const bool driven = frames_ && frames_->drives(f);  // then the window moves its frames, and no finger
+    drives = drives || driven;
+    if (devices_[f]->points() && !driven) fingers.push_back(f);
   }
+  if (view_ != nullptr && drives) view_->offerFrames();
   if (view_ != nullptr && !fingers.empty()) view_->offerPointer(fingers);
 }
 
@@ -255,12 +299,18 @@ void Session::openDevices() {
   for (const auto& device : devices_) device->open();
 }
 
-void Session::putIntoFrames() {
-  const auto tree = std::make_shared<FrameTree>(world_->rig, world_->scene.devices);
+void Session::putIntoFrames(const std::vector<FingerSafety>& safety) {
+  if (world_->rig.frames.empty()) return;
+  const auto tree = frames_ = std::make_shared<FrameTree>(world_->rig, world_->scene.devices);
   for (std::size_t f = 0; f < devices_.size(); ++f) {
     const DeviceBinding* binding = bindingOf(world_->rig, world_->scene.devices[f].role);
     const int frame = binding == nullptr ? FrameTree::kWorld : tree->find(binding->frame);
     if (frame == FrameTree::kWorld && !tree->carries(f)) continue;
+    const double zoom = plan_.devices[f].zoom;
+    const OutputLimits& limits = safety[f].limits;
+    if (tree->drives(f))
+      devices_[f] = std::make_unique<DrivenDevice>(std::move(devices_[f]), tree, f,
+                                                   DrivenDevice::Slew{zoom * limits.force_rate, limits.torque_rate});
     devices_[f] = std::make_unique<FramedDevice>(std::move(devices_[f]), tree, frame, f);
   }
 }
@@ -284,6 +334,8 @@ RecordedDevices Session::recordedDevices() const {
     if (devices_[f]->measuresOrientation()) recorded.tools.push_back(f);
     recorded.phases.push_back(devices_[f]->phases());
   }
+  if (frames_)
+    for (const Frame& frame : world_->rig.frames) recorded.frames.push_back(frame.name);
   return recorded;
 }
 

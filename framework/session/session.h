@@ -17,6 +17,8 @@ namespace presa {
 class PluginHost;
 
 class DeviceOutput;
+class FrameTree;
+class FrameWatch;
 struct FingerSafety;
 
 /// Names and versions of the libraries that the plan's modules use: "ODE 0.16.2". Loads the plug-ins.
@@ -54,6 +56,8 @@ class Session {
   const Monitor& monitor() const noexcept { return *monitor_; }
   Recorder* recorder() noexcept { return recorder_; }  ///< null when nothing is recorded
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
+  /// The frames of the rig; null if it has none, or if the devices are not the rig's.
+  const FrameWatch* frames() const noexcept { return frame_watch_; }
   View* view() noexcept { return view_; }  ///< null without a view
   /// The plug-in of the haptic tick that broke its contract (framework/haptics/plugin_host.h), or none. Thread: any.
   std::optional<std::string> brokenPlugin() const;
@@ -64,7 +68,7 @@ class Session {
 
  private:
   void openDevices();
-  void putIntoFrames();
+  void putIntoFrames(const std::vector<FingerSafety>& safety);
   void offerPointer();
   RecordedDevices recordedDevices() const;
   double releaseTime() const;  ///< as Monitor takes it [s]
@@ -77,6 +81,8 @@ class Session {
   std::vector<std::string> notes_;
   std::unique_ptr<ScheduleLog> schedule_;
   Graph graph_;
+  std::shared_ptr<FrameTree> frames_;  // only if the rig has frames
+  FrameWatch* frame_watch_ = nullptr;
   DeviceOutput* output_ = nullptr;
   Monitor* monitor_ = nullptr;
   Recorder* recorder_ = nullptr;

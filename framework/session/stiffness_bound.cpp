@@ -66,13 +66,20 @@ std::vector<std::string> stiffnessesOf(const PluginElement& element) {
   return names;
 }
 
+/// A spring of k in the scene is one of s^2 k in a hand whose frame has the scale s, and a mass or damping of the hand is
+/// one of 1 / s^2 in the scene.
+double seenThroughZoom(const Plan& plan, std::size_t f, double value) {
+  const double zoom = plan.devices[f].zoom;
+  return value / (zoom * zoom);
+}
+
 }  // namespace
 
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
   StiffnessBound min;
   const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
   for (std::size_t f = 0; f < devices.size(); ++f) {
-    const double damping = devices[f]->damping();
+    const double damping = seenThroughZoom(plan, f, devices[f]->damping());
     if (!(damping > 0)) continue;
     const int delay = delayOf(plan, f);
     const double stiffness = damping / ((delay + 0.5) * period);
@@ -111,7 +118,7 @@ DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Sce
   DampingBound min;
   const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
   for (std::size_t f = 0; f < devices.size(); ++f) {
-    const double mass = devices[f]->mass();
+    const double mass = seenThroughZoom(plan, f, devices[f]->mass());
     if (!(mass > 0)) continue;
     const int delay = delayOf(plan, f);
     const double damping = 2 * mass * std::cos(delay * std::numbers::pi / (2 * delay + 1)) / period;

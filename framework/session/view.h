@@ -69,6 +69,10 @@ class View : public Module {
   /// PointerState. Call before the graph is built.
   virtual void offerPointer(const std::vector<std::size_t>& fingers) = 0;
 
+  /// Lets keys of the window move the frames of the rig (FrameWish): the view then writes PointerState. Call before the
+  /// graph is built.
+  virtual void offerFrames() = 0;
+
   /// Lets keys of the window pause and slow time through `time_control`, which must outlive the view; a length above 0
   /// [s] adds a bar for jumping within a recording. Call before start().
   virtual void offerTime(TimeControl& time_control, double length) noexcept = 0;

@@ -18,6 +18,13 @@ Lines pairLines() {
           {"Shift + key", "a fifth of the step"}};
 }
 
+Lines frameLines() {
+  return {{"", "user and workspace, while held"},
+          {"Alt + arrows, PageUp …", "walk and turn, fly"},
+          {"v", "clutch: the workspace slides back"},
+          {"z  x", "zoom: coarser, finer"}};
+}
+
 Lines cameraLines(bool pair) {
   Lines lines{{"", "camera"}};
   if (pair) {
@@ -64,6 +71,7 @@ Lines partLines() {
 std::vector<HelpLine> helpLines(const Controls& controls, bool recording) {
   Lines lines;
   if (controls.pointer != nullptr) append(lines, pairLines());
+  if (controls.frames != nullptr) append(lines, frameLines());
   append(lines, cameraLines(controls.pointer != nullptr));
   if (controls.time != nullptr) append(lines, timeLines(recording));
   append(lines, partLines());

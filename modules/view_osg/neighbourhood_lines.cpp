@@ -8,7 +8,7 @@
 namespace presa::view {
 namespace {
 
-constexpr double kAround = 0.015;            ///< radius around a finger [m]
+constexpr double kAroundFinger = 0.015;            ///< radius around a finger [m]
 constexpr std::size_t kMaxCorners = 30'000;  ///< 5000 triangles
 constexpr double kLift = 2e-4;               ///< distance from the surface, against flicker [m]
 
@@ -41,7 +41,7 @@ void NeighbourhoodLines::update(bool shown, const FingerNeighbourhoods* neighbou
       const auto& tree = world_.meshes[body].haptic_tree;
       if (!tree || body >= X_WB.size()) continue;
       const Pose X_WG = X_WB[body] * world_.scene.bodies[body].haptic->X_BG;
-      tree->forEachWithin(X_WG.inverseTimes(finger.center_W), kAround, [&](std::int32_t f) {
+      tree->forEachWithin(X_WG.inverseTimes(finger.center_W), kAroundFinger, [&](std::int32_t f) {
         if (corners->size() >= kMaxCorners) return;
         const MeshTree::Facet& facet = tree->facet(f);
         const auto corner = [&](std::size_t i) -> const Vec3& { return tree->corner(facet, i); };

@@ -4,6 +4,7 @@
 #include <osg/PolygonMode>
 
 #include "framework/scene/physics_shapes.h"
+#include "modules/view_osg/frame_axes.h"
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/scene_nodes.h"
@@ -13,26 +14,8 @@ namespace presa::view {
 namespace {
 
 const Vec3 kHapticColor(0.05, 0.75, 1.0), kPhysicsColor(1.0, 0.15, 0.75), kSleepColor(0.35, 0.45, 1.0);
-constexpr double kAxisThickness = 0.012;  ///< relative to the axis length
-constexpr double kAxisLength = 1.25;      ///< relative to the drawn size of the body
-constexpr double kWorldAxis = 0.1;        ///< [m]
-
-osg::ref_ptr<osg::Group> axes(double length) {
-  osg::ref_ptr<osg::Group> group = new osg::Group;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 color = 0.05 * Vec3::Ones() + 0.9 * Vec3::Unit(axis);
-    const double thick = kAxisThickness * length;
-    osg::ref_ptr<osg::MatrixTransform> shaft =
-        new osg::MatrixTransform(alongZ(Vec3::Zero(), Vec3::Unit(axis), {thick, thick, 0.8 * length}));
-    shaft->addChild(unitShaft(color));
-    osg::ref_ptr<osg::MatrixTransform> head = new osg::MatrixTransform(
-        alongZ(0.8 * length * Vec3::Unit(axis), Vec3::Unit(axis), {3 * thick, 3 * thick, 0.2 * length}));
-    head->addChild(unitConeUp(color));
-    group->addChild(shaft);
-    group->addChild(head);
-  }
-  return group;
-}
+constexpr double kAxisLength = 1.25;  ///< relative to the drawn size of the body
+constexpr double kWorldAxis = 0.1;    ///< [m]
 
 /// The shape of a body in one layer, in the body's frame; null: nothing.
 osg::ref_ptr<osg::Node> linesOf(ShownPart part, const Body& body, const BodyMeshes& meshes) {
@@ -65,7 +48,7 @@ Overlays::Layer Overlays::make(ShownPart part) const {
     state->setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
     state->setAttributeAndModes(new osg::LineWidth(1.5F));
   } else {
-    layer.group->addChild(axes(kWorldAxis));
+    layer.group->addChild(axisCross(kWorldAxis));
   }
   const auto& bodies = world_.scene.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -76,7 +59,7 @@ Overlays::Layer Overlays::make(ShownPart part) const {
     } else if (!bodies[i].fixed) {
       const auto surface =
           linesOf(ShownPart::kSleeping, bodies[i], i < world_.meshes.size() ? world_.meshes[i] : BodyMeshes{});
-      if (surface) X_WB->addChild(axes(kAxisLength * surface->getBound().radius()));
+      if (surface) X_WB->addChild(axisCross(kAxisLength * surface->getBound().radius()));
     }
     layer.bodies.push_back(X_WB);
     layer.group->addChild(X_WB);

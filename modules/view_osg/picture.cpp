@@ -41,6 +41,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_),
       joints_(world_->scene, bodies_, *space_, hud_.center(), inkOn(options.picture.background)),
+      frame_axes_(*world_, *space_, hud_.center(), inkOn(options.picture.background)),
       ink_(inkOn(options.picture.background)),
       panels_(options.picture.hud == PictureOptions::Hud::kFull || options.picture.legend ||
               parts_[ShownPart::kOffset] || parts_[ShownPart::kPlots] || parts_[ShownPart::kCompliance] ||
@@ -238,6 +239,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   plots_.update(parts[ShownPart::kPlots]);
   showOffsets(parts[ShownPart::kOffset], frame);
   joints_.show(parts[ShownPart::kJoints], frame);
+  frame_axes_.show(parts[ShownPart::kFrames], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);
   double lit = (quick_ ? lighting_.reach() * kShadows : kLitAround) * focus.radius;

@@ -10,6 +10,7 @@
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
 #include "modules/view_osg/finger_marks.h"
+#include "modules/view_osg/frame_axes.h"
 #include "modules/view_osg/grain.h"
 #include "modules/view_osg/guides.h"
 #include "modules/view_osg/hud.h"
@@ -75,6 +76,7 @@ class Picture {
   void seenFrom(const CameraPose& pose) {
     hud_.seenFrom(pose);
     joints_.seenFrom(pose);
+    frame_axes_.seenFrom(pose);
   }
   /// Simplifies the picture for software rendering.
   void setQuick(bool quick);
@@ -113,6 +115,7 @@ class Picture {
   Plots plots_;
   std::optional<OffsetPanel> offsets_;  // once it is shown
   ShownJoints joints_;
+  FrameAxes frame_axes_;
   const Ink ink_;
   const bool panels_;       // something is drawn at the sides
   const bool whole_cones_;  // the camera keeps them in the picture

@@ -6,6 +6,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/finger_neighbourhood.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/joints/joint_positions.h"
 
 namespace presa::view {
@@ -20,7 +21,8 @@ struct ViewFrame {
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;
-  std::optional<Guidance> guidance;  ///< only in scenes with an assembly
+  const FrameState* frames = nullptr;  ///< value of the port; null: the rig has no frames
+  std::optional<Guidance> guidance;    ///< only in scenes with an assembly
 };
 
 }  // namespace presa::view

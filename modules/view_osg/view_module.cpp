@@ -30,6 +30,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
   if (options_.realtime || windowed() || options_.bus) setenv("LP_NUM_THREADS", "1", 0);
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
+  if (!world_->rig.frames.empty()) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
   if (!options_.video.empty()) video_.emplace(options_.video);
   const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
@@ -74,6 +75,7 @@ std::unique_ptr<Renderer> ViewModule::makeRenderer() {
   const bool nameless = options_.participant || forVisitors(*world_);
   return makeWindowRenderer(*picture_, nameless ? "Presa" : title,
                             {.pointer = pointer_ ? &*pointer_ : nullptr,
+                             .frames = frame_keys_ ? &*frame_keys_ : nullptr,
                              .time = time_,
                              .undo = world_->scene.assembly.has_value(),
                              .participant = options_.participant.has_value(),
@@ -116,8 +118,13 @@ void ViewModule::setScreen(const ParticipantScreen& screen) {
 }
 
 void ViewModule::offerPointer(const std::vector<std::size_t>& fingers) {
-  pointer_out_.emplace(*this, kPointerPort);
+  if (!pointer_out_) pointer_out_.emplace(*this, kPointerPort);
   pointer_.emplace(fingers);
+}
+
+void ViewModule::offerFrames() {
+  if (!pointer_out_) pointer_out_.emplace(*this, kPointerPort);
+  frame_keys_.emplace();
 }
 
 void ViewModule::offerTime(TimeControl& time_control, double length) noexcept {
@@ -140,6 +147,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.forces = force_command_.value();
   if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
   if (joint_positions_.connected()) frame_.joint_positions = &joint_positions_.value();
+  if (frames_ && frames_->connected()) frame_.frames = &frames_->value();
   if (guidance_.connected()) frame_.guidance = guidance_->now;
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();
@@ -163,6 +171,7 @@ void ViewModule::drawWindow() {
   }
   renderer_->render();
   if (pointer_) pointer_out_->value = pointer_->state();
+  if (frame_keys_) pointer_out_->value.frames = frame_keys_->wish();
   undos_.store(renderer_->inputs().undos, std::memory_order_relaxed);
   onwards_.store(renderer_->inputs().onwards, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);

@@ -7,9 +7,11 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 #include "framework/session/view.h"
+#include "modules/view_osg/frame_keys.h"
 #include "modules/view_osg/plugin_parts.h"
 #include "modules/view_osg/renderer.h"
 #include "modules/view_osg/video.h"
@@ -41,6 +43,7 @@ class ViewModule final : public View {
   void setScreen(const ParticipantScreen& screen) override;
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
   void offerPointer(const std::vector<std::size_t>& fingers) override;
+  void offerFrames() override;
   void offerTime(TimeControl& time_control, double length) noexcept override;
   void refresh() noexcept override;
   void drawOnWall(walls::Canvas& canvas) noexcept override { canvas_ = &canvas; }
@@ -66,8 +69,10 @@ class ViewModule final : public View {
   In<ObjectState> object_state_{*this, "object_state", In<ObjectState>::Optional{}};
 
   std::optional<In<FingerNeighbourhoods>> neighbourhoods_;  ///< only if neighbourhoods may be shown
-  std::optional<Out<PointerState>> pointer_out_;            ///< only with a pointer device
+  std::optional<Out<PointerState>> pointer_out_;            ///< only with a pointer device or frames that a user moves
   std::optional<PointerControl> pointer_;
+  std::optional<FrameKeys> frame_keys_;   ///< only where the rig has frames that a user moves
+  std::optional<In<FrameState>> frames_;  ///< only where the rig has frames
   TimeControl* time_ = nullptr;
   walls::Canvas* canvas_ = nullptr;  ///< only on a wall
   double length_ = 0;                ///< length of the recording [s]; 0: a run

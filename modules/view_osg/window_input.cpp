@@ -62,7 +62,9 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       scroll(event);
       return true;
     case Event::KEYDOWN:
-      return key(event);
+      return frameKey(event, true) || key(event);
+    case Event::KEYUP:
+      return frameKey(event, false);
     default:
       return false;
   }
@@ -184,6 +186,11 @@ bool WindowInput::key(const Event& event) {
   if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
     return pairKey(key, has(event, Event::MODKEY_SHIFT));
   return cameraKey(key);
+}
+
+bool WindowInput::frameKey(const Event& event, bool down) {
+  if (controls_.frames == nullptr || controls_.participant) return false;
+  return controls_.frames->take(event.getKey(), down, has(event, Event::MODKEY_ALT));
 }
 
 void WindowInput::tellCamera() {

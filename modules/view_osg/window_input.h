@@ -4,6 +4,7 @@
 
 #include "framework/session/view.h"
 #include "modules/view_osg/camera_control.h"
+#include "modules/view_osg/frame_keys.h"
 #include "modules/view_osg/picture.h"
 #include "modules/view_osg/pointer_control.h"
 
@@ -12,6 +13,7 @@ namespace presa::view {
 /// Objects controlled from a window besides the camera; null: not available.
 struct Controls {
   PointerControl* pointer = nullptr;
+  FrameKeys* frames = nullptr;
   TimeControl* time = nullptr;
   bool undo = false;  ///< undo is available
   /// The window is a participant's: only the pointer's mouse and keys act in it, and it stays open for the next run.
@@ -46,6 +48,7 @@ class WindowInput : public osgGA::GUIEventHandler {
   void click(const osgGA::GUIEventAdapter& event, bool twice);
   void scroll(const osgGA::GUIEventAdapter& event);
   bool key(const osgGA::GUIEventAdapter& event);
+  bool frameKey(const osgGA::GUIEventAdapter& event, bool down);
   void tellCamera();
   bool cameraKey(int key);
   bool pairKey(int key, bool fine);

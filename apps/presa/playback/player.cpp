@@ -52,6 +52,19 @@ class RecordedJoints final : public Module {
   Out<JointPositions> positions_{*this, kJointPositionsPort};
 };
 
+/// Writes the frames of the rig. Runs as RecordedSource.
+class RecordedFrames final : public Module {
+ public:
+  explicit RecordedFrames(const RecordedMoment& moment) : Module("recorded_frames", RateGroup::kView), moment_(moment) {
+    moment_.fillFrames(moment_.begin(), frames_.value);
+  }
+  void step(const Tick& tick) noexcept override { moment_.fillFrames(tick.time, frames_.value); }
+
+ private:
+  const RecordedMoment& moment_;
+  Out<FrameState> frames_{*this, kFramesPort};
+};
+
 class Player {
  public:
   Player(const RecordedSamples& samples, const std::shared_ptr<const World>& world, const RunOptions& options,
@@ -61,6 +74,7 @@ class Player {
     GraphBuilder builder;
     builder.add(std::make_unique<RecordedSource>(moment_));
     if (!world->scene.joints.empty()) builder.add(std::make_unique<RecordedJoints>(samples, world->scene));
+    if (moment_.hasFrames()) builder.add(std::make_unique<RecordedFrames>(moment_));
     if (world->scene.assembly) builder.add(std::make_unique<GuideModule>(world));
     auto view = makeView(world, options);
     view_ = view.get();

@@ -47,12 +47,40 @@ RecordedMoment::RecordedMoment(const RecordedSamples& samples, const World& worl
                       vectorOf(t, "w_WB"),
                       {&t.values("q_WB_w"), &t.values("q_WB_x"), &t.values("q_WB_y"), &t.values("q_WB_z")}});
   }
+  for (const RecordedTable& t : samples.frames) {
+    frames_.push_back({vectorOf(t, "p_WF"),
+                       {&t.values("q_WF_w"), &t.values("q_WF_x"), &t.values("q_WF_y"), &t.values("q_WF_z")},
+                       &t.values("zoom"),
+                       &t.values("doing"),
+                       &t.values("uses"),
+                       &t.values("refusals")});
+  }
+}
+
+std::size_t RecordedMoment::rowAt(double time) const {
+  const auto later = std::upper_bound(samples_.time.begin(), samples_.time.end(), time);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, later - samples_.time.begin() - 1));
+}
+
+void RecordedMoment::fillFrames(double time, FrameState& state) const {
+  const std::size_t row = rowAt(time);
+  state.time = samples_.time[row];
+  state.frames.resize(frames_.size());
+  for (std::size_t n = 0; n < frames_.size(); ++n) {
+    const FrameColumns& frame = frames_[n];
+    const auto q = [&](std::size_t i) { return (*frame.q_WF[i])[row]; };
+    const auto count = [row](Column column) { return static_cast<std::uint32_t>((*column)[row]); };
+    state.frames[n] = {.X_WF = {at(frame.p_WF, row), Quat(q(0), q(1), q(2), q(3)).normalized()},
+                       .zoom = (*frame.zoom)[row],
+                       .doing = count(frame.doing),
+                       .uses = count(frame.uses),
+                       .refusals = count(frame.refusals)};
+  }
 }
 
 void RecordedMoment::fill(double time, ObjectState& objects, DeviceState& device, ContactExchange& contacts,
                           ForceCommand& command) const {
-  const auto later = std::upper_bound(samples_.time.begin(), samples_.time.end(), time);
-  const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, later - samples_.time.begin() - 1));
+  const std::size_t row = rowAt(time);
   objects.time_begin = objects.time_end = device.time = contacts.time = command.time = samples_.time[row];
   objects.bodies.resize(world_.scene.bodies.size());
   for (std::size_t i = 0; i < world_.scene.bodies.size(); ++i)

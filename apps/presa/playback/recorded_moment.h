@@ -6,6 +6,7 @@
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
 #include "framework/record/recording.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/world.h"
 
 namespace presa {
@@ -21,6 +22,9 @@ class RecordedMoment {
   /// Sets the states to the last tick at or before this time.
   void fill(double time, ObjectState& objects, DeviceState& device, ContactExchange& contacts,
             ForceCommand& command) const;
+  /// The frames of the rig, which the recording has from format 10 on.
+  bool hasFrames() const { return !frames_.empty(); }
+  void fillFrames(double time, FrameState& state) const;
 
  private:
   /// Column indices of one table, looked up once.
@@ -36,6 +40,12 @@ class RecordedMoment {
     Vector p_WB, v_WB, w_WB;
     std::array<Column, 4> q_WB;
   };
+  struct FrameColumns {
+    Vector p_WF;
+    std::array<Column, 4> q_WF;
+    Column zoom, doing, uses, refusals;
+  };
+  std::size_t rowAt(double time) const;
   void fillFinger(const FingerColumns& finger, std::size_t row, const ObjectState& objects, FingerInput& input,
                   FingerContact& contact) const;
 
@@ -43,6 +53,7 @@ class RecordedMoment {
   const World& world_;
   std::vector<FingerColumns> fingers_;
   std::vector<BodyColumns> moved_;
+  std::vector<FrameColumns> frames_;
 };
 
 }  // namespace presa

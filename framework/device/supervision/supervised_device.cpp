@@ -16,7 +16,7 @@ extern char** environ;  // NOLINT: POSIX declares it nowhere
 namespace presa {
 namespace {
 
-enum Code { kNotStarted = 498, kDied = 499 };
+enum SupervisedCode { kNotStarted = 498, kDied = 499 };
 
 constexpr int kShareFd = 3, kLifeFd = 4;                              // in the supervisor
 constexpr std::int64_t kLook = 5'000'000, kPatience = 1'000'000'000;  // [ns]

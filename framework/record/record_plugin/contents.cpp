@@ -46,6 +46,10 @@ class ContentReader {
       auto all = rows<ToolRow>(table, {}, static_cast<bool>(take.tool));
       if (take.tool) take.tool(table, std::move(all));
     }
+    for (const StoredTable& table : stored_.frames) {
+      auto all = rows<FrameRow>(table, {}, static_cast<bool>(take.frame));
+      if (take.frame) take.frame(table, std::move(all));
+    }
     for (std::size_t g = 0; g < stored_.schedule.size(); ++g)
       contents_.schedule[g] = rows<ScheduleRow>(stored_.schedule[g], scheduleRules(), true);
     if (stored_.complete) compareLengths();
@@ -178,6 +182,7 @@ class ContentReader {
     for (const StoredTable& table : stored_.fingers) compare(table);
     for (const StoredTable& table : stored_.bodies) compare(table);
     for (const StoredTable& table : stored_.tools) compare(table);
+    for (const StoredTable& table : stored_.frames) compare(table);
     if (wholeRun()) compare(stored_.schedule.front());
   }
 

@@ -32,7 +32,7 @@ FlightBuffer::FlightBuffer(std::shared_ptr<const World> world, RunOptions option
     : world_(std::move(world)),
       options_(std::move(options)),
       devices_(std::move(devices)),
-      layout_(layoutOf(*world_, devices_.tools)),
+      layout_(layoutOf(*world_, devices_)),
       capacity_(static_cast<std::size_t>(std::ceil(kBefore * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       after_(static_cast<std::size_t>(std::ceil(kAfter * RateTable(world_->scene.rates).rate(RateGroup::kHaptic)))),
       kept_(capacity_ * layout_.words()) {

@@ -60,6 +60,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions&
       block_(layout_.words() * std::min(kBlockRows, capacity_)),
       schedule_block_(kBlockRows),
       flushed_at_(std::chrono::steady_clock::now()) {
+  if (layout_.frames > 0) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
   if (options.bus_commands) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
   startWriter();
 }
@@ -122,6 +123,7 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   for (std::size_t f = 0; f < layout_.fingers; ++f) fillFinger(f, tick);
   for (std::size_t b = 0; b < layout_.bodies; ++b) fillBody(b, tick);
   for (std::size_t t = 0; t < layout_.tools.size(); ++t) fillTool(t, tick);
+  for (std::size_t n = 0; n < layout_.frames; ++n) fillFrame(n, tick);
 }
 
 void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
@@ -158,6 +160,22 @@ void FileRecorder::fillTool(std::size_t slot, const Tick& tick) noexcept {
   copy(contact_->fingers[finger].t_H_W, row.t_rendered_W);
   copy(command_->t_H_W[finger], row.t_command_W);
   put(layout_.toolOffset(slot), row);
+}
+
+void FileRecorder::fillFrame(std::size_t frame, const Tick& tick) noexcept {
+  FrameRow row;
+  row.index = tick.index;
+  row.time = tick.time;
+  if (frames_->hasValue()) {
+    const FrameNow& now = (*frames_)->frames[frame];
+    copy(now.X_WF.p, row.p_WF);
+    copy(now.X_WF.q, row.q_WF);
+    row.zoom = now.zoom;
+    row.doing = now.doing;
+    row.uses = now.uses;
+    row.refusals = now.refusals;
+  }
+  put(layout_.frameOffset(frame), row);
 }
 
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {

@@ -13,6 +13,7 @@
 #include "framework/record/record_plugin/row_ring.h"
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
+#include "framework/scene/frame_state.h"
 #include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
 
@@ -52,6 +53,7 @@ class FileRecorder final : public Recorder {
   void fillFinger(std::size_t finger, const Tick& tick) noexcept;
   void fillBody(std::size_t slot, const Tick& tick) noexcept;
   void fillTool(std::size_t slot, const Tick& tick) noexcept;
+  void fillFrame(std::size_t frame, const Tick& tick) noexcept;
   template <class Row>
   void put(std::size_t offset, const Row& row) noexcept;
   void hurryWriter() noexcept;
@@ -76,6 +78,7 @@ class FileRecorder final : public Recorder {
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
   In<ObjectState> shown_{*this, kShownObjectsPort, In<ObjectState>::Optional{}};
   In<SurfaceChange> surfaces_{*this, "surface_change", In<SurfaceChange>::Optional{}};
+  std::optional<In<FrameState>> frames_;          // only when the rig has frames
   std::optional<In<SurfaceSettings>> commanded_;  // only when the run takes commands
   SettingsTaker commands_;
 

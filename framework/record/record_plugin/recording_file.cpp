@@ -93,17 +93,18 @@ Table scheduleTable() {
   return table;
 }
 
-RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools) {
+RowLayout layoutOf(const World& world, const RecordedDevices& devices) {
   RowLayout layout;
   layout.fingers = world.scene.devices.size();
   layout.bodies = static_cast<std::size_t>(std::count_if(world.scene.bodies.begin(), world.scene.bodies.end(),
                                                          [](const Body& body) { return !body.fixed; }));
-  layout.tools = tools;
+  layout.tools = devices.tools;
+  layout.frames = devices.frames.size();
   return layout;
 }
 
 RecordingFile::RecordingFile(const World& world, const RunOptions& options, const RecordedDevices& devices)
-    : name_(options.record), layout_(layoutOf(world, devices.tools)) {
+    : name_(options.record), layout_(layoutOf(world, devices)) {
   const std::string& name = name_;
   claim(name, options.overwrite);
   try {
@@ -137,10 +138,16 @@ void RecordingFile::create(const World& world, const RunOptions& options, const 
     tables_.push_back(createTable("haptic/bodies", linkName(world.scene.bodies[b].name), bodyTable()));
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
+  if (layout_.frames > 0) version = kFramesSince;
   if (version >= kToolsSince) h5::group(file_, "haptic/tools");
   for (const std::size_t f : layout_.tools) {
     tables_.push_back(createTable("haptic/tools", linkName(world.scene.devices[f].role), toolTable()));
     h5::writeAttribute(tables_.back().dataset, "tool", std::uint64_t{f});
+  }
+  if (layout_.frames > 0) h5::group(file_, "haptic/frames");
+  for (std::size_t n = 0; n < layout_.frames; ++n) {
+    tables_.push_back(createTable("haptic/frames", linkName(devices.frames[n]), frameTable()));
+    h5::writeAttribute(tables_.back().dataset, "frame", std::uint64_t{n});
   }
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     schedule_.push_back(createTable("schedule", toString(static_cast<RateGroup>(g)), scheduleTable()));

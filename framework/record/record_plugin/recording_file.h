@@ -15,12 +15,14 @@ namespace presa::record {
 /// Version of the file layout; a reader refuses a higher one. A file without what a
 /// version added has the version before.
 inline constexpr std::uint64_t kFormatVersion =
-    9;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools; 9: phases
+    10;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools; 9: phases; 10: frames
 /// First version with haptic/tools.
 inline constexpr std::uint64_t kToolsSince = 8;
 /// Attribute of a finger's table, since format 9: the names of its phases, one a line.
 inline constexpr const char* kPhasesAttribute = "phases";
 inline constexpr std::uint64_t kPhasesSince = 9;
+/// First version with haptic/frames.
+inline constexpr std::uint64_t kFramesSince = 10;
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;

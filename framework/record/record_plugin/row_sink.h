@@ -33,6 +33,6 @@ class RowSink {
 };
 
 /// The row layout for this world; `tools`: the roles whose devices measure their orientation.
-RowLayout layoutOf(const World& world, const std::vector<std::size_t>& tools);
+RowLayout layoutOf(const World& world, const RecordedDevices& devices);
 
 }  // namespace presa::record

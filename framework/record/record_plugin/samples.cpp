@@ -53,6 +53,9 @@ RecordedSamples readSamples(const std::string& file) {
   take.tool = [&](const StoredTable& table, const std::vector<ToolRow>& rows) {
     samples.tools.push_back(byColumn(table, rows));
   };
+  take.frame = [&](const StoredTable& table, const std::vector<FrameRow>& rows) {
+    samples.frames.push_back(byColumn(table, rows));
+  };
   const Contents contents = readContents(file, take);
   samples.haptic_period = contents.stored.haptic_period;
   samples.complete = contents.stored.complete;
@@ -69,6 +72,7 @@ RecordedSamples readSamples(const std::string& file) {
   shorten(samples.fingers, contents.count);
   shorten(samples.bodies, contents.count);
   shorten(samples.tools, contents.count);
+  shorten(samples.frames, contents.count);
   return samples;
 }
 

@@ -20,6 +20,7 @@ enum Code { kAttribute = 671 };
 constexpr std::uint64_t kUnwritten = std::uint64_t{64} << 20;
 
 constexpr std::uint64_t kInputsSince = 7;
+constexpr std::uint64_t kMaxFrames = 10'000;
 
 bool isInName(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
@@ -53,6 +54,7 @@ class Structure {
       group("haptic/bodies", "body", bodyTable(), stored_.scene_bodies, stored_.bodies);
       if (stored_.version >= kToolsSince)
         group("haptic/tools", "tool", toolTable(), stored_.fingers.size(), stored_.tools);
+      if (stored_.version >= kFramesSince) group("haptic/frames", "frame", frameTable(), kMaxFrames, stored_.frames);
     }
     if (!look_.isGroup("schedule")) return;
     if (stored_.version >= kInputsSince) stored_.inputs.emplace();

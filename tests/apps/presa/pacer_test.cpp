@@ -25,6 +25,7 @@ class CountingView final : public View {
   void setScreen(const ParticipantScreen&) override {}
   void setTimings(const std::array<const GroupTiming*, kRateGroupCount>&) noexcept override {}
   void offerPointer(const std::vector<std::size_t>&) override {}
+  void offerFrames() override {}
   void offerTime(TimeControl&, double) noexcept override {}
   void drawOnWall(walls::Canvas&) noexcept override {}
   void refresh() noexcept override {

@@ -97,7 +97,7 @@ TEST(LinkingHand, NeedsTwoDevicesAndOneOfThemToLead) {
                                 binding.settings["hand"] = {"linking_hand", {}};
                               }),
             nullptr);
-  EXPECT_EQ(one.all().at(0).code, 467) << one.text();
+  EXPECT_EQ(one.all().at(0).code, 390) << one.text();
 
   Diagnostics both;
   const Loaded loaded = loadWorld({scene, kRig, {}}, {}, both);
@@ -107,7 +107,7 @@ TEST(LinkingHand, NeedsTwoDevicesAndOneOfThemToLead) {
     binding.settings["leads"] = {"toe", {}};
   }
   devicePlugin("percro_arm").create(bindings, loaded.world, {}, both);
-  EXPECT_EQ(both.all().at(0).code, 468) << both.text();
+  EXPECT_EQ(both.all().at(0).code, 391) << both.text();
 }
 
 }  // namespace
