@@ -86,6 +86,13 @@ TEST(Percro, IsHeldAsPrintedAndBetterByTheMethodsOfToday) {
   expectSentences(percro);
 }
 
+TEST(Percro, HasItsTrianglesFromFclAt100Hz) {
+  const std::string text = test::presa("explain " + source("config/scenes/percro_2006.xml")).out;
+  const std::size_t thread = text.find("  collision, 100 Hz\n    collision_fcl");
+  ASSERT_NE(thread, std::string::npos) << text;
+  EXPECT_NE(text.find("a tree of oriented boxes finds (index=\"obb\")", thread), std::string::npos) << text;
+}
+
 /// The shipped cube with a file of printed figures beside it, in a folder of its own.
 std::string cubeWithPrint(const std::string& folder, const std::string& print) {
   const std::filesystem::path place = scratch(folder);
