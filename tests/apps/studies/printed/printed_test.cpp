@@ -28,8 +28,9 @@ void expectFrequencies(const Comparison& percro) {
   }
 }
 
-// The printed system holds its own grid; it slips within k dX of m g / (2 mu_s), with the largest printed step, 130 um. The
-// offset of today's methods: 1 um, as README says of the cube; their mismatch: 2.5 %, twice that of modelled arms there.
+// The printed system holds its own grid; it slips within k dX of m g / (2 mu_s), with the largest printed step, 130
+// um. The offset of today's methods: 1 um, as README says of the cube; their mismatch: 2.5 %, twice that of modelled
+// arms there.
 void expectHeld(const Comparison& percro) {
   for (const Cell& cell : percro.cells) {
     SCOPED_TRACE(testing::PrintToString(cell.values));
