@@ -8,8 +8,8 @@ namespace {
 
 enum FrictionPresetCode { kPresetAndStatic = 236 };
 
-/// Static coefficients between the tip of an index finger and a material, as section 3.6.1 of the PERCRO paper quotes them.
-/// The schema names the same.
+/// Static coefficients between the tip of an index finger and a material, as section 3.6.1 of the PERCRO paper quotes
+/// them. The schema names the same.
 constexpr std::array kFingertipOn{std::pair{"rayon", "0.42"}, std::pair{"suede", "0.61"},
                                   std::pair{"sandpaper", "1.67"}};
 

@@ -45,7 +45,8 @@ const ElementRule* listedElement(const ElementRule& rule) {
   return is_list ? rule.content[0].options[0] : nullptr;
 }
 
-/// The alternative of an attribute (mass and density, euler_deg and quat, preset and static): setting one removes the other.
+/// The alternative of an attribute (mass and density, euler_deg and quat, preset and static): setting one removes the
+/// other.
 std::string rivalOf(const std::string& attribute) {
   static const std::pair<const char*, const char*> kRivals[] = {
       {"mass", "density"}, {"euler_deg", "quat"}, {"preset", "static"}};

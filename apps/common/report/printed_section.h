@@ -12,8 +12,8 @@ namespace presa::html {
 /// A heading, and the summary of the run below it.
 using SummaryColumn = std::pair<std::string, nlohmann::json>;
 
-/// The printed figures that runs show, beside those of each run; below it what to know about them, and where the print is
-/// wrong.
+/// The printed figures that runs show, beside those of each run; below it what to know about them, and where the
+/// print is wrong.
 std::string printedTable(const Printed& printed, const std::vector<SummaryColumn>& runs);
 
 /// The same for one run as a section. Empty for a scene without a file of printed figures; the findings where that file

@@ -151,7 +151,7 @@ Section section(const wanted::MarginPlot& what, const Context& context) {
       groupsBy(context.experiment, trials, by, trials.complete({what.grip, what.slip, what.x}));
   const NameList colors = levelsAt(groups, 0), shapes = levelsAt(groups, 1);
   FacetFigure figure{"Relative safety margin",
-                     context.heading(what.x),
+                     context.heading(what.x) + (what.log_x ? ", logarithmic" : ""),
                      "margin [% of the grip force]",
                      named(context, what.shape, shapes),
                      {""},

@@ -8,7 +8,8 @@ namespace presa::check {
 /// body; and as warnOfExplicitGrasps. Thread: main, before a run.
 void warnOfStart(const Loaded& loaded, Diagnostics& diagnostics);
 
-/// W245 for each grasp whose body is too light for an explicit exchange of forces (apps/common/grasp_loop.h). Thread: main.
+/// W245 for each grasp whose body is too light for an explicit exchange of forces (apps/common/grasp_loop.h). Thread:
+/// main.
 void warnOfExplicitGrasps(const World& world, Diagnostics& diagnostics);
 
 /// W244, if the dynamics need longer for a step than its period and bodies have meshes as their physics. Measures

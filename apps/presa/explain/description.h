@@ -15,8 +15,8 @@ std::set<std::string> mappedLibraries();
 ///   scene; threads[] name rate_hz period_s; modules[] name group reason; stages[] group module stage;
 ///   connections[] from to value across_rates [when_old old_after_s]; devices[] role driver; left_out[] what why;
 ///   joints[] name what, only in a scene with joints;
-///   grasps[] body fingers stiffness_N_m mass_kg natural_frequency_hz explicit_min_mass_kg, only where fingers can grasp a
-///   free body;
+///   grasps[] body fingers stiffness_N_m mass_kg natural_frequency_hz explicit_min_mass_kg, only where fingers can
+///   grasp a free body;
 ///   libraries[] name plugin needed_by ("the program": one of `before`; "the scene": loaded for it).
 nlohmann::json describeSession(Session& session, const std::set<std::string>& before);
 

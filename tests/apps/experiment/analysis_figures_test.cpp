@@ -83,8 +83,8 @@ double tickRatio(const std::string& svg) {
   return (at[2] - at[1]) / (at[1] - at[0]);
 }
 
-// Masses that double lie at equal distances on a logarithmic axis, and 0.1, 0.2, 0.4 do not on a linear one. Bound: tenths
-// of a pixel of some 100.
+// Masses that double lie at equal distances on a logarithmic axis, and 0.1, 0.2, 0.4 do not on a linear one. Bound:
+// tenths of a pixel of some 100.
 TEST_F(FigureTest, MarginsOverALogarithmicMass) {
   const char* text = R"(<margins grip="F_grip" slip="F_slip" x="mass" color="stiffness" shape="mu_s" log="x"/>)";
   EXPECT_NEAR(tickRatio(figure(text).figure), 1, 0.01);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <ostream>
 
 #include "apps/common/grasp_figures.h"
 #include "tests/apps/presa/support.h"
@@ -72,6 +73,9 @@ struct ExplicitGrasp {
   const char *rig, *pose;
   double stiffness;
 };
+std::ostream& operator<<(std::ostream& out, const ExplicitGrasp& grasp) {
+  return out << grasp.rig << ", " << grasp.pose << ", " << grasp.stiffness << " N/m";
+}
 class ExplicitMargin : public testing::TestWithParam<ExplicitGrasp> {
  protected:
   /// Whether the cube of the PERCRO system is held to the end of the hold, this many times the bound heavy.

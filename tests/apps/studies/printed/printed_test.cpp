@@ -28,8 +28,9 @@ void expectFrequencies(const Comparison& percro) {
   }
 }
 
-// The printed system holds its own grid; it slips within k dX of m g / (2 mu_s), with the largest printed step, 130 um. The
-// offset of today's methods: 1 um, as README says of the cube; their mismatch: 2.5 %, twice that of modelled arms there.
+// The printed system holds its own grid; it slips within k dX of m g / (2 mu_s), with the largest printed step, 130
+// um. The offset of today's methods: 1 um, as README says of the cube; their mismatch: 2.5 %, twice that of modelled
+// arms there.
 void expectHeld(const Comparison& percro) {
   for (const Cell& cell : percro.cells) {
     SCOPED_TRACE(testing::PrintToString(cell.values));
@@ -84,6 +85,13 @@ TEST(Percro, IsHeldAsPrintedAndBetterByTheMethodsOfToday) {
   expectLightCubesLost(percro);
   expectSharesOfMethods(percro);
   expectSentences(percro);
+}
+
+TEST(Percro, HasItsTrianglesFromFclAt100Hz) {
+  const std::string text = test::presa("explain " + source("config/scenes/percro_2006.xml")).out;
+  const std::size_t thread = text.find("  collision, 100 Hz\n    collision_fcl");
+  ASSERT_NE(thread, std::string::npos) << text;
+  EXPECT_NE(text.find("a tree of oriented boxes finds (index=\"obb\")", thread), std::string::npos) << text;
 }
 
 /// The shipped cube with a file of printed figures beside it, in a folder of its own.
