@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "framework/core/math/spatial.h"
-#include "framework/geometry/tri_mesh.h"
 #include "framework/plugin/plugin_loader.h"
-#include "framework/scene/scene.h"
+#include "framework/scene/world.h"
 
 /// What a device looks like in the picture of a run. A driver whose manifest says gives="figure" exports a table with
 /// PRESA_DEVICE_FIGURE; for all others nothing is loaded. Frame F: that of the driver's samples.

@@ -150,11 +150,11 @@ TEST(ShownDevices, AFilmEqualsPicturesDrawnAnew) {
     module.stop();
     return folder;
   };
-  const std::string whole = film("film", 0, 6);
+  const std::string whole = film("devices_film", 0, 6);
   for (const int frame : {0, 3, 6}) {
     std::array<char, 32> name;
     std::snprintf(name.data(), name.size(), "/%09.3f.png", 0.04 * frame);
-    const PngPicture kept(whole + name.data()), anew(film("alone", frame, frame) + name.data());
+    const PngPicture kept(whole + name.data()), anew(film("devices_alone", frame, frame) + name.data());
     int different = 0;
     for (int y = 0; y < kept.height(); ++y)
       for (int x = 0; x < kept.width(); ++x) {
