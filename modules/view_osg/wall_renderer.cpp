@@ -111,6 +111,7 @@ class WallRenderer final : public Renderer {
     window_ = window.context;
     if (!window_->realize() || !window_->makeCurrent())
       throw std::runtime_error("the window opened, but it gives no OpenGL context");
+    if (auto* shown = dynamic_cast<osgViewer::GraphicsWindow*>(window_.get())) shown->useCursor(false);
     GLboolean both = GL_FALSE;
     glGetBooleanv(GL_STEREO, &both);
     canvas_.quad_refused = quad && both == GL_FALSE;
