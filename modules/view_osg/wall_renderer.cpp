@@ -122,8 +122,8 @@ class WallRenderer final : public Renderer {
     else
       egl_->makeCurrent();
   }
-  /// Draws everything once, hidden parts and those beside the picture, too: a driver compiles each shader when it is first
-  /// used, which would halt all walls in the middle of a run.
+  /// Draws everything once, hidden parts and those beside the picture, too: a driver compiles each shader when it is
+  /// first used, which would halt all walls in the middle of a run.
   void warmUp() {
     osg::Camera& camera = *viewer_.getCamera();
     auto& scene_view = *static_cast<osgViewer::Renderer*>(camera.getRenderer())->getSceneView(0);

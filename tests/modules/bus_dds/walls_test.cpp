@@ -77,8 +77,8 @@ TEST(Walls, MessagesArriveUnchanged) {
   EXPECT_EQ(d.X_KHead.q.coeffs(), head.q.coeffs());
 }
 
-// Four walls and a leader: each frame has one time, one head and one state on all walls, and no wall shows a frame before
-// all have shown the one before. The cube moves meanwhile, and so does the head.
+// Four walls and a leader: each frame has one time, one head and one state on all walls, and no wall shows a frame
+// before all have shown the one before. The cube moves meanwhile, and so does the head.
 TEST(Walls, FourProcessesDrawTheSameFrames) {
   const BusSettings bus = ownDomain();
   const auto link = openWallLink(bus);
