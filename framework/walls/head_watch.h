@@ -6,9 +6,9 @@
 
 namespace presa::walls {
 
-/// The pose of a tracked head, without jumps. While the tracker gives nothing usable, the head stays where it was; when
-/// the tracker is back, the head moves to what is measured along a minimum-jerk path of kReturn. A measured jump that
-/// no head makes begins such a path, too. Thread: one.
+/// The pose of a tracked head, without jumps. While the tracker gives nothing usable, the head stays where it was;
+/// when the tracker is back, the head moves to what is measured along a minimum-jerk path of kReturn. A measured jump
+/// that no head makes begins such a path, too. Thread: one.
 class HeadWatch {
  public:
   static constexpr double kReturn = 0.8;   ///< [s]

@@ -22,8 +22,8 @@ std::optional<Frustum> frustumOf(const Walls& walls, const Wall& wall, const Vec
 /// Left and right eye of a head, in K.
 std::array<Vec3, 2> eyesOf(const Walls& walls, const Pose& X_KHead);
 
-/// Where a point of the world is in the picture: 0 0 at its lower left corner, 1 1 at the upper right one. The point is
-/// before the eye.
+/// Where a point of the world is in the picture: 0 0 at its lower left corner, 1 1 at the upper right one. The point
+/// is before the eye.
 Eigen::Vector2d inPicture(const Frustum& frustum, const Vec3& p_W);
 
 /// The projection of OpenGL for the frustum: coordinates of the eye to clip space, as a matrix for column vectors.

@@ -7,8 +7,8 @@
 
 namespace presa::walls {
 
-/// One wall's part of the frame lock: which frame to draw, and what to tell the leader. Follows one leader until it falls
-/// silent. Times are those of CLOCK_MONOTONIC. Thread: one.
+/// One wall's part of the frame lock: which frame to draw, and what to tell the leader. Follows one leader until it
+/// falls silent. Times are those of CLOCK_MONOTONIC. Thread: one.
 class WallFollower {
  public:
   static constexpr std::int64_t kSilence = 1'000'000'000;  ///< a leader that says nothing for so long is lost [ns]

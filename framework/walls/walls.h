@@ -30,8 +30,8 @@ struct Walls {
   const Wall& wall(const std::string& wanted) const;
 };
 
-/// Reads a file of walls. All findings go to `diagnostics`; the result is valid only without errors: E760 a wall without
-/// area, E761 one that is no rectangle, E762 an eye behind it, E763 a name that is used twice, E765 version.
+/// Reads a file of walls. All findings go to `diagnostics`; the result is valid only without errors: E760 a wall
+/// without area, E761 one that is no rectangle, E762 an eye behind it, E763 a name that is used twice, E765 version.
 Walls loadWalls(const std::string& file, Diagnostics& diagnostics);
 /// As loadWalls, from memory.
 Walls parseWalls(const std::string& xml, const std::string& name, Diagnostics& diagnostics);

@@ -33,8 +33,8 @@ std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureO
 std::unique_ptr<Renderer> makeWindowRenderer(Picture& picture, const std::string& title, const Controls& controls,
                                              const PictureOptions& options);
 
-/// A wall of a CAVE, in a window of its size or off-screen: the three-dimensional part alone, for the eyes that `canvas`
-/// has when render() is called. `canvas` must outlive it. Throws std::runtime_error when there is no display.
+/// A wall of a CAVE, in a window of its size or off-screen: the three-dimensional part alone, for the eyes of `canvas`
+/// when render() is called. `canvas` must outlive it. Throws std::runtime_error when there is no display.
 std::unique_ptr<Renderer> makeWallRenderer(Picture& picture, walls::Canvas& canvas, bool window,
                                            const std::string& title);
 

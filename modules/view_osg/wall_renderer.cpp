@@ -111,6 +111,7 @@ class WallRenderer final : public Renderer {
     window_ = window.context;
     if (!window_->realize() || !window_->makeCurrent())
       throw std::runtime_error("the window opened, but it gives no OpenGL context");
+    if (auto* shown = dynamic_cast<osgViewer::GraphicsWindow*>(window_.get())) shown->useCursor(false);
     GLboolean both = GL_FALSE;
     glGetBooleanv(GL_STEREO, &both);
     canvas_.quad_refused = quad && both == GL_FALSE;
@@ -121,8 +122,8 @@ class WallRenderer final : public Renderer {
     else
       egl_->makeCurrent();
   }
-  /// Draws everything once, hidden parts and those beside the picture, too: a driver compiles each shader when it is first
-  /// used, which would halt all walls in the middle of a run.
+  /// Draws everything once, hidden parts and those beside the picture, too: a driver compiles each shader when it is
+  /// first used, which would halt all walls in the middle of a run.
   void warmUp() {
     osg::Camera& camera = *viewer_.getCamera();
     auto& scene_view = *static_cast<osgViewer::Renderer*>(camera.getRenderer())->getSceneView(0);

@@ -13,8 +13,8 @@ namespace presa {
 /// device's world is the frame of the walls' file. A lost device is reopened in the background. Thread: one.
 class HeadTracker {
  public:
-  /// Opens the device. `rest`: the head before its first sample. Throws InputError: findings of the rig, E766 a rig that
-  /// has not one device, or one that does not measure orientation.
+  /// Opens the device. `rest`: the head before its first sample. Throws InputError: findings of the rig, E766 a rig
+  /// that has not one device, or one that does not measure orientation.
   HeadTracker(const std::string& rig, const Pose& rest);
   ~HeadTracker();
 

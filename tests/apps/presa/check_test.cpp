@@ -146,6 +146,7 @@ TEST(Check, TakesRigsMotionsAndExperiments) {
   EXPECT_EQ(check::kindOf(source("config/rigs/pinch_cube.xml")), FileKind::kRig);
   EXPECT_EQ(check::kindOf(source("config/motions/rub.csv")), FileKind::kMotion);
   EXPECT_EQ(check::kindOf(source("experiments/stiffness_2afc/experiment.xml")), FileKind::kExperiment);
+  EXPECT_EQ(check::kindOf(source("config/cave/cave.xml")), FileKind::kWalls);
   EXPECT_EQ(check::kindOf(source("README.md")), FileKind::kScene);
   const std::string motion = scratch("bad_motion.xml"), keys = scratch("bad_keys.csv"), rig = scratch("bad_rig.xml"),
                     experiment = scratch("bad_experiment.xml");

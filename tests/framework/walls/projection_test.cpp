@@ -96,8 +96,8 @@ TEST(WallProjection, PointsAreWhereTheirLinesMeetTheWall) {
   }
 }
 
-// Pictures of walls that share an edge continue each other: what one shows at a place of the edge, the other shows at the
-// same place, however far behind the walls it is. 100 poses of the head, both eyes, all pairs of walls.
+// Pictures of walls that share an edge continue each other: what one shows at a place of the edge, the other shows at
+// the same place, however far behind the walls it is. 100 poses of the head, both eyes, all pairs of walls.
 TEST(WallProjection, NeighboursAgreeAlongTheirEdge) {
   struct Shared {
     const char *one, *other;
@@ -128,8 +128,8 @@ TEST(WallProjection, NeighboursAgreeAlongTheirEdge) {
   EXPECT_LT(worst, 1e-6);  // asked for: one pixel
 }
 
-// A point of the wall's plane has no disparity; one at distance d behind it, seen from D before it with eyes e apart in
-// parallel to the wall, has e d / (D + d).
+// A point of the wall's plane has no disparity; one at distance d behind it, seen from D before it with eyes e apart
+// in parallel to the wall, has e d / (D + d).
 TEST(WallProjection, DisparityIsZeroAtTheWallAndGrowsBehindIt) {
   const Walls walls = askew();
   const Wall& front = walls.wall("front");

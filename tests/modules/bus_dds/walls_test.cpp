@@ -77,8 +77,8 @@ TEST(Walls, MessagesArriveUnchanged) {
   EXPECT_EQ(d.X_KHead.q.coeffs(), head.q.coeffs());
 }
 
-// Four walls and a leader: each frame has one time, one head and one state on all walls, and no wall shows a frame before
-// all have shown the one before. The cube moves meanwhile, and so does the head.
+// Four walls and a leader: each frame has one time, one head and one state on all walls, and no wall shows a frame
+// before all have shown the one before. The cube moves meanwhile, and so does the head.
 TEST(Walls, FourProcessesDrawTheSameFrames) {
   const BusSettings bus = ownDomain();
   const auto link = openWallLink(bus);
@@ -178,18 +178,18 @@ TEST(Walls, ALostTrackerFreezesTheHeadAndIsTold) {
   EXPECT_TRUE(leader.says("HEAD LOST: it stays where it was"));
   Heard heard;
   heard.take(*link);
-  double last = 0;
-  std::size_t tracked = 0, frozen = 0;
+  std::size_t tracked = 0;
+  std::set<double> frozen;
   for (const auto& [number, frame] : heard.frames) {
-    const double x = frame.X_KHead.p.x();
-    if (!frame.tracked && tracked > 0) {
-      EXPECT_EQ(x, last) << "frame " << number;
-    }
-    ++(frame.tracked ? tracked : frozen);
-    last = x;
+    if (frame.tracked)
+      ++tracked;
+    else if (tracked > 0)
+      frozen.insert(frame.X_KHead.p.x());
   }
   EXPECT_GT(tracked, 5u);
-  EXPECT_GT(frozen, 0u);
+  ASSERT_EQ(frozen.size(), 1u);
+  // a minimum-jerk path of 1.6 m: 0.058 of it is done after 4 s of 20; the scripted finger lags behind by less than 1 cm
+  EXPECT_NEAR(*frozen.begin(), -0.8 + 0.058 * 1.6, 0.01);
 }
 
 TEST(Walls, AnEyeBehindAWallFreezesThatWallAndIsTold) {

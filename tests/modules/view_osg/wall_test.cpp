@@ -75,8 +75,8 @@ int redness(const osg::Image& image, int x, int y) {
   return 2 * c[0] - c[1] - c[2];
 }
 
-/// Where the red of a column ends beyond row `y`, which is red, in the direction `step`: by the share of the last pixels
-/// that it covers, to a quarter of a row (these pixels are means in linear light, not in codes).
+/// Where the red of a column ends beyond row `y`, which is red, in the direction `step`: by the share of the last
+/// pixels that it covers, to a quarter of a row (these pixels are means in linear light, not in codes).
 double redEnd(const osg::Image& image, int x, int y, int step) {
   const double inside = redness(image, x, y - 3 * step), outside = redness(image, x, y + 3 * step);
   double covered = 0;
@@ -123,8 +123,8 @@ TEST(WallPicture, NeighboursAgreeToAPixelAlongTheirEdge) {
   EXPECT_LE(worst, 1.0);
 }
 
-/// Middle of what is red, weighted by how much of each pixel it covers: to a few hundredths of a pixel for edges that are
-/// askew. Columns from `begin` to `end`.
+/// Middle of what is red, weighted by how much of each pixel it covers: to a few hundredths of a pixel for edges that
+/// are askew. Columns from `begin` to `end`.
 Eigen::Vector2d middle(const osg::Image& image, int begin, int end) {
   double sum = 0;
   Eigen::Vector2d at(0, 0);
@@ -139,8 +139,8 @@ Eigen::Vector2d middle(const osg::Image& image, int begin, int end) {
   return at / sum;
 }
 
-// A sheet in the wall's plane is at one place for both eyes; one that is 1 m behind it, seen from 2 m before it, is apart
-// by a third of the distance between the eyes.
+// A sheet in the wall's plane is at one place for both eyes; one that is 1 m behind it, seen from 2 m before it, is
+// apart by a third of the distance between the eyes.
 TEST(WallPicture, DisparityIsZeroAtTheWallAndTheAnalyticOneBehindIt) {
   Stage stage(Geometry{Box{{0.6, 1e-3, 0.5}}, Pose{}, {}}, Stereo::kSideBySide, 2 * kWallWidth, kWallHeight);
   const Quat askew(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
