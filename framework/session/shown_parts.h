@@ -16,7 +16,7 @@ enum class ShownPart : std::size_t {
   kCones,       ///< cones of static friction
   kForces,      ///< forces on the fingers
   kSleeping,    ///< bodies that sleep in the dynamics
-  kFrames,      ///< axes of world and bodies, x red, y green, z blue
+  kFrames,      ///< axes of world, bodies, rig, contacts and faces, x red, y green, z blue
   kPlots,       ///< force, penetration and haptic rate of the last seconds; key g
   kTexture,     ///< height of the felt surface around a touching finger, where a texture is felt; key t
   kOffset,      ///< of each finger from its HIP and from the touched object, as numbers; key o

@@ -226,7 +226,7 @@ TEST(DrivenFrames, AreRecordedAndReplayed) {
   options.record = file;
   options.overwrite = true;
   RunControl control;
-  Run run(loadWorld({scene_file, rig_file, {}}, options, diagnostics), control);
+  presa::Run run(loadWorld({scene_file, rig_file, {}}, options, diagnostics), control);
   run.execute();
   const RecordedSamples samples = recordPlugin().samples(file);
   ASSERT_EQ(samples.frames.size(), 2U);
