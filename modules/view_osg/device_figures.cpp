@@ -80,7 +80,9 @@ std::unique_ptr<DeviceFigures> DeviceFigures::of(const World& world) {
     const std::string& role = world.scene.devices[f].role;
     const auto binding = std::ranges::find(world.rig.devices, role, &DeviceBinding::role);
     if (binding == world.rig.devices.end()) continue;
-    Figure figure{.finger = f, .role = role};
+    Figure figure;
+    figure.finger = f;
+    figure.role = role;
     figure.drawn = figureOf(*binding);
     if (!figure.drawn) continue;
     if (!all) all.reset(new DeviceFigures);

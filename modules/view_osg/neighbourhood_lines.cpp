@@ -8,7 +8,7 @@
 namespace presa::view {
 namespace {
 
-constexpr double kAroundFinger = 0.015;            ///< radius around a finger [m]
+constexpr double kAroundFinger = 0.015;      ///< radius around a finger [m]
 constexpr std::size_t kMaxCorners = 30'000;  ///< 5000 triangles
 constexpr double kLift = 2e-4;               ///< distance from the surface, against flicker [m]
 

@@ -59,6 +59,10 @@ draw() {  # PROGRAMS OUT NAME
     pinch_and_lift)
       "$presa" run "$config/scenes/pinch_and_lift.xml" --lockstep --quiet --screenshot "$2/$3.png"
       ;;
+    percro_arms)
+      "$presa" run "$config/scenes/percro_2006.xml" --lockstep --quiet --hud minimal --picture-size 1280x560 \
+        --camera "-0.5,-2.2,0.75:0,0,0.04" --screenshot "$2/$3.png"
+      ;;
     temple_column)
       # status 1: the capital is not in its place yet
       "$presa" temple --auto --lockstep --seed 7 --for 59.9 --screenshot "$2/$3.png" >"$scratch/log" 2>&1 ||
