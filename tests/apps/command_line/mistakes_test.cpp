@@ -49,7 +49,7 @@ constexpr Mistake kMistakes[] = {
     // what is missing or too much
     {"run", 2, "presa run: error[E123]: SCENE is missing: scene file, e.g. config/scenes/cube.xml"},
     {"run --for 3", 2, "SCENE is missing"},
-    {"check", 2, "FILE is missing: scene, rig, motion or experiment files"},
+    {"check", 2, "FILE is missing: files of scenes, rigs, motions, experiments or walls"},
     {"replay", 2, "FILE is missing"},
     {"new effect", 2, "NAME is missing"},
     {"run CUBE CUBE", 2, "is one argument too many: presa run takes SCENE"},
