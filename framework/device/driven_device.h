@@ -35,6 +35,10 @@ class DrivenDevice final : public WrappedDevice {
     sent_ = sent;
     inner().write(sent, tick);
   }
+  void rearm() noexcept override {
+    tree_->rearm(role_);
+    inner().rearm();
+  }
   bool points() const override { return true; }
   void point(const PointerState& pointer, const Tick& tick) noexcept override {
     tree_->wish(pointer.frames);

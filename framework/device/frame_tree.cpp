@@ -67,7 +67,9 @@ void FrameTree::seat(std::size_t role, int frame) {
     Node& node = nodes_[index - roles_.size()];
     if (node.drive) {
       seats_[role].push_back({index - roles_.size(), node.drive->seats.size()});
-      node.drive->seats.push_back({.role = role, .frame = frame, .hand = {}});
+      node.drive->seats.emplace_back();
+      node.drive->seats.back().role = role;
+      node.drive->seats.back().frame = frame;
     }
     at = node.parent;
   }
@@ -132,10 +134,11 @@ FrameWish FrameTree::wishFor(const Node& node) const noexcept {
 void FrameTree::sampled(std::size_t role, const FingerInput& sample, const Tick& tick) noexcept {
   for (const SeatOf& place : seats_[role]) {
     Seat& seat = nodes_[place.node].drive->seats[place.seat];
-    seat.valid = sample.valid;
-    seat.seen = seat.seen || sample.valid;
-    if (sample.valid) seat.hand = {sample.p_WH, sample.v_WH};
-    seat.buttons = sample.buttons;
+    const FingerInput checked = seat.check.take(sample, tick.period);
+    seat.valid = checked.valid;
+    seat.seen = seat.seen || checked.valid;
+    if (checked.valid) seat.hand = {checked.p_WH, checked.v_WH};
+    seat.buttons = checked.buttons;
   }
   for (const SeatOf& place : seats_[role]) step(place.node, tick);
 }
@@ -148,11 +151,19 @@ void FrameTree::step(std::size_t index, const Tick& tick) noexcept {
   FrameDrive::Touch touch;
   for (Seat& seat : drive.seats) {
     touch.written = touch.written && seat.written;
-    touch.felt = touch.felt || seat.felt || !seat.valid;
+    touch.felt = touch.felt || seat.felt || seat.doubted || !seat.valid;
   }
   if (touch.written)
     for (Seat& seat : drive.seats) seat.written = false;
   drive.motion.step(wishFor(nodes_[index]), middle(index, tick.time), touch, tick.period);
+}
+
+void FrameTree::doubt(std::size_t role, bool doubted) noexcept {
+  for (const SeatOf& place : seats_[role]) nodes_[place.node].drive->seats[place.seat].doubted = doubted;
+}
+
+void FrameTree::rearm(std::size_t role) noexcept {
+  for (const SeatOf& place : seats_[role]) nodes_[place.node].drive->seats[place.seat].check.rearm();
 }
 
 bool FrameTree::withholds(std::size_t role, bool felt) noexcept {

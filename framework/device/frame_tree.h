@@ -8,6 +8,7 @@
 #include "framework/core/state/device_state.h"
 #include "framework/device/frame_drive.h"
 #include "framework/device/frame_motion.h"
+#include "framework/device/sample_check.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
@@ -37,12 +38,18 @@ class FrameTree {
   void sampled(std::size_t role, const FingerInput& sample, const Tick& tick) noexcept;
   /// The wrench on a driven role's tool, zero or not. True if it answers a step of a frame: the hand must not get it.
   bool withholds(std::size_t role, bool felt) noexcept;
+  /// The force on this driven role says nothing about what it touches: the output stage stops it, or it touches a body
+  /// and the stage withholds its force. Its frames rest. Holds until the next call.
+  void doubt(std::size_t role, bool doubted) noexcept;
+  /// Clears what a driven role's samples were rejected for.
+  void rearm(std::size_t role) noexcept;
   /// What the keys of the window say.
   void wish(const FrameWish& wish) noexcept { wish_ = wish; }
 
   /// The frames of the rig now, in its order; `state` is sized for them.
   void tell(double time, FrameState& state) const noexcept;
   std::size_t frames() const noexcept { return nodes_.size(); }
+  std::size_t roles() const noexcept { return roles_.size(); }
 
  private:
   /// A device in a driven frame.
@@ -50,9 +57,10 @@ class FrameTree {
     std::size_t role = 0;
     int frame = kWorld;  // in which it stands
     FrameDrive::Hand hand;
+    SampleCheck check;  // no impossible sample moves a frame
     std::uint32_t buttons = 0;
     bool seen = false, valid = false;  // a sample has come; the last one was good
-    bool written = false, felt = false;
+    bool written = false, felt = false, doubted = false;
   };
   struct Drive {
     explicit Drive(const Frame& frame) : motion(frame) {}

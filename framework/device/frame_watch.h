@@ -4,16 +4,19 @@
 #include <utility>
 
 #include "framework/core/graph/port.h"
+#include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/device/frame_tree.h"
+#include "framework/device/output_stage.h"
 
 namespace presa {
 
-/// Tells where the frames of the rig are, to the picture, the recording and the terminal. Only in runs whose rig has
-/// frames.
+/// Tells where the frames of the rig are, to the picture, the recording and the terminal; and tells frames that a user
+/// moves of fingers whose device gets no force although they may touch a body: after a fault, or with old inputs. Only
+/// in runs whose rig has frames.
 class FrameWatch final : public Module {
  public:
-  explicit FrameWatch(std::shared_ptr<const FrameTree> tree)
+  explicit FrameWatch(std::shared_ptr<FrameTree> tree)
       : Module("frame_watch", RateGroup::kHaptic),
         tree_(std::move(tree)),
         doing_(tree_->frames()),
@@ -21,6 +24,7 @@ class FrameWatch final : public Module {
     state_.value = FrameState(tree_->frames());
   }
   void step(const Tick& tick) noexcept override {
+    doubt();
     tree_->tell(tick.time, state_.value);
     for (std::size_t n = 0; n < doing_.size(); ++n) {
       doing_[n].store(state_.value.frames[n].doing, std::memory_order_relaxed);
@@ -40,10 +44,20 @@ class FrameWatch final : public Module {
   const FrameState& last() const noexcept { return state_.value; }
 
  private:
-  std::shared_ptr<const FrameTree> tree_;
+  void doubt() noexcept {
+    if (!contact_.connected() || !command_.connected()) return;
+    const bool stopped = (command_.value().status & (kOutputLatches | kOutputWatchdog)) != 0;
+    const auto& fingers = contact_.value().fingers;
+    for (std::size_t f = 0; f < fingers.size() && f < tree_->roles(); ++f)
+      tree_->doubt(f, stopped || !fingers[f].f_H_W.isZero() || !fingers[f].t_H_W.isZero());
+  }
+
+  std::shared_ptr<FrameTree> tree_;
   std::vector<std::atomic<std::uint32_t>> doing_;
   std::vector<std::atomic<double>> zoom_;
   In<DeviceState> device_{*this, "device_state"};  // after the devices
+  In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
+  In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   Out<FrameState> state_{*this, kFramesPort};
 };
 

@@ -236,7 +236,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   }
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
-  if (frames_) frame_watch_ = &builder.add(std::make_unique<FrameWatch>(frames_));
+  if (!world_->rig.frames.empty() && frames_) frame_watch_ = &builder.add(std::make_unique<FrameWatch>(frames_));
   if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone))
     builder.add(std::make_unique<GuideModule>(world_));
   for (const PlannedModule& planned : plan_.modules) builder.add(load(planned));
@@ -300,7 +300,8 @@ void Session::openDevices() {
 }
 
 void Session::putIntoFrames(const std::vector<FingerSafety>& safety) {
-  if (world_->rig.frames.empty()) return;
+  const auto stands = [](const DeviceBinding& binding) { return binding.frame != kWorldFrame; };
+  if (world_->rig.frames.empty() && std::ranges::none_of(world_->rig.devices, stands)) return;
   const auto tree = frames_ = std::make_shared<FrameTree>(world_->rig, world_->scene.devices);
   for (std::size_t f = 0; f < devices_.size(); ++f) {
     const DeviceBinding* binding = bindingOf(world_->rig, world_->scene.devices[f].role);

@@ -86,6 +86,7 @@ std::unique_ptr<DeviceFigures> DeviceFigures::of(const World& world) {
     figure.drawn = figureOf(*binding);
     if (!figure.drawn) continue;
     if (!all) all.reset(new DeviceFigures);
+    all->roles_ = world.scene.devices.size();
     if (binding->frame != kWorldFrame) {
       if (!all->frames_) all->frames_.emplace(world.rig, world.scene.devices);
       figure.frame = all->frames_->find(binding->frame);
@@ -141,27 +142,36 @@ bool DeviceFigures::has(std::size_t finger) const {
   return std::ranges::find(figures_, finger, &Figure::finger) != figures_.end();
 }
 
-std::optional<FigureMoment> DeviceFigures::momentOf(const Figure& figure, const ViewFrame& frame) {
+/// A frame of the rig as the run tells it, whoever moves it; a tool, or a frame that nobody tells, by the samples.
+DeviceFigures::Stand DeviceFigures::standOf(const Figure& figure, const ViewFrame& frame) {
+  if (figure.frame == FrameTree::kWorld) return {};
+  const auto index = static_cast<std::size_t>(figure.frame);
+  if (frame.frames != nullptr && index >= roles_ && index - roles_ < frame.frames->frames.size()) {
+    const FrameNow& now = frame.frames->frames[index - roles_];
+    return {now.X_WF, now.zoom > 0 ? now.zoom : 1};
+  }
+  for (std::size_t role = 0; role < frame.device.fingers.size(); ++role) {
+    const FingerInput& tool = frame.device.fingers[role];
+    frames_->setTool(role, {.X_WF = {tool.p_WH, tool.q_WT}});
+  }
+  return {frames_->at(figure.frame, frame.time).X_WF};
+}
+
+std::optional<FigureMoment> DeviceFigures::momentOf(const Figure& figure, const Stand& stand,
+                                                    const ViewFrame& frame) const {
   if (figure.finger >= frame.device.fingers.size()) return std::nullopt;
   const FingerInput& finger = frame.device.fingers[figure.finger];
   if (!finger.valid) return std::nullopt;
-  Pose X_WF;
-  if (figure.frame != FrameTree::kWorld) {
-    for (std::size_t role = 0; role < frame.device.fingers.size(); ++role) {
-      const FingerInput& tool = frame.device.fingers[role];
-      frames_->setTool(role, {.X_WF = {tool.p_WH, tool.q_WT}});
-    }
-    X_WF = frames_->at(figure.frame, frame.time).X_WF;
-  }
-  FigureMoment moment{.time = frame.time, .p_FH = X_WF.inverseTimes(finger.p_WH), .oriented = finger.oriented};
-  moment.q_FT = X_WF.q.conjugate() * finger.q_WT;
-  if (figure.finger < frame.forces.f_H_W.size()) moment.f_H_F = X_WF.q.conjugate() * frame.forces.f_H_W[figure.finger];
+  const Quat q_FW = stand.X_WF.q.conjugate();
+  FigureMoment moment{.time = frame.time, .p_FH = stand.inverseTimes(finger.p_WH), .oriented = finger.oriented};
+  moment.q_FT = q_FW * finger.q_WT;
+  if (figure.finger < frame.forces.f_H_W.size()) moment.f_H_F = stand.zoom * (q_FW * frame.forces.f_H_W[figure.finger]);
   return moment;
 }
 
 void DeviceFigures::follow(const ViewFrame& frame) {
   for (Figure& figure : figures_)
-    if (const auto moment = momentOf(figure, frame)) figure.drawn->follow(*moment);
+    if (const auto moment = momentOf(figure, standOf(figure, frame), frame)) figure.drawn->follow(*moment);
 }
 
 void DeviceFigures::update(const ViewFrame& frame, const ShownParts& parts) {
@@ -171,18 +181,19 @@ void DeviceFigures::update(const ViewFrame& frame, const ShownParts& parts) {
   std::vector<Pose> X_FP;
   for (Figure& figure : figures_) {
     color(figure, by_heat_);
-    const auto moment = momentOf(figure, frame);
+    const Stand stand = standOf(figure, frame);
+    const auto moment = momentOf(figure, stand, frame);
     if (!moment) continue;
-    const Pose X_WF = figure.frame == FrameTree::kWorld ? Pose{} : frames_->at(figure.frame, frame.time).X_WF;
     figure.drawn->place(*moment, X_FP);
     for (std::size_t i = 0; i < figure.parts.size() && i < X_FP.size(); ++i) {
-      figure.parts[i]->setMatrix(toOsg(X_WF * X_FP[i]));
+      const Pose X_WP{stand * X_FP[i].p, stand.X_WF.q * X_FP[i].q};
+      figure.parts[i]->setMatrix(osg::Matrix::scale(stand.zoom, stand.zoom, stand.zoom) * toOsg(X_WP));
       figure.parts[i]->setNodeMask(~0U);
     }
     figure.deflection = figure.drawn->deflection(*moment, kDeflectionScale);
     if (!figure.deflection || !parts[ShownPart::kCompliance]) continue;
     std::vector<Vec3> line_W;
-    for (const Vec3& p_F : figure.deflection->line_F) line_W.push_back(X_WF * p_F);
+    for (const Vec3& p_F : figure.deflection->line_F) line_W.push_back(stand * p_F);
     const osg::ref_ptr<osg::Geometry> bar = meshGeometry(barAlong(line_W), kLineColor);
     figure.line->setVertexArray(bar->getVertexArray());
     figure.line->setNormalArray(bar->getNormalArray());

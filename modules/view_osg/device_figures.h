@@ -70,13 +70,23 @@ class DeviceFigures {
   DeviceFigures();
   void makeShapes(Figure& figure, bool quick);
   void addLine(Figure& figure);
+  /// Where the frame of a device stands in the world, and how many metres of the world one of its metres is.
+  struct Stand {
+    Pose X_WF;
+    double zoom = 1;
+
+    Vec3 operator*(const Vec3& p_F) const { return X_WF * Vec3(zoom * p_F); }
+    Vec3 inverseTimes(const Vec3& p_W) const { return X_WF.inverseTimes(p_W) / zoom; }
+  };
+  Stand standOf(const Figure& figure, const ViewFrame& frame);
   /// None: the device reports nothing; its figure stays where it was.
-  std::optional<FigureMoment> momentOf(const Figure& figure, const ViewFrame& frame);
+  std::optional<FigureMoment> momentOf(const Figure& figure, const Stand& stand, const ViewFrame& frame) const;
   void color(Figure& figure, bool by_heat);
 
   osg::ref_ptr<osg::Group> root_ = new osg::Group, lines_ = new osg::Group, solid_lines_ = new osg::Group;
   std::vector<Figure> figures_;
   std::optional<FrameTree> frames_;  // only where a device stands in one
+  std::size_t roles_ = 0;            // of the scene; FrameTree counts its frames from there
   bool by_heat_ = false;
 };
 

@@ -130,8 +130,8 @@ void FrameAxes::showFingers(const ViewFrame& frame) {
 
 void FrameAxes::say(const FrameState* frames) {
   std::string text;
-  for (std::size_t n = 0; frames != nullptr && n < frames->frames.size() && text.empty(); ++n)
-    text = frameSentence(world_.rig.frames[n], frames->frames[n]);
+  const std::size_t count = frames == nullptr ? 0 : std::min(frames->frames.size(), world_.rig.frames.size());
+  for (std::size_t n = 0; n < count && text.empty(); ++n) text = frameSentence(world_.rig.frames[n], frames->frames[n]);
   if (!sentence_) {
     if (text.empty()) return;
     sentence_ = new osg::MatrixTransform(osg::Matrix::translate(0, kSentenceAt, 0));

@@ -219,6 +219,7 @@ std::string ViewModule::savePicture(const std::string& file) {
 
 void ViewModule::giveUp(const std::string& why) noexcept {
   broken_ = true;
+  if (pointer_out_) pointer_out_->value.frames = {};  // no key is held any more
   if (screenshot_.outcome == Screenshot::Outcome::kPending) screenshot_ = {Screenshot::Outcome::kFailed, why};
 }
 

@@ -144,9 +144,9 @@ class Structure {
     }
     std::sort(tables.begin(), tables.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
     for (std::size_t i = 0; i < tables.size() && numbered; ++i) {
-      // body numbers skip fixed bodies; finger numbers must be consecutive
+      // body numbers skip fixed bodies; those of fingers and frames must be consecutive
       const bool taken = i > 0 && tables[i].place == tables[i - 1].place;
-      if (taken || (number == "finger" && names.size() == tables.size() && tables[i].place != i))
+      if (taken || ((number == "finger" || number == "frame") && names.size() == tables.size() && tables[i].place != i))
         look_.wrong(671, tables[i].path,
                     "attribute '" + number + "': found " + std::to_string(tables[i].place) +
                         (taken ? ", which is another table's" : "; they count from 0"));

@@ -77,6 +77,8 @@ class Desk {
     return state.frames[frame == "user" ? 0 : 1];
   }
   void write(const Wrench& F_H_W) { device_->write(F_H_W, now_); }
+  void doubt(bool doubted) { tree_->doubt(0, doubted); }
+  void rearm() { device_->rearm(); }
 
   Hand* hand;
   FrameWish wish;
@@ -200,6 +202,39 @@ TEST(FrameDrive, AStepThatMeetsABodyIsTakenBack) {
   EXPECT_GT((desk.tick().p_WH - free).norm(), 0.01) << "and goes on without";
   EXPECT_EQ(desk.now("user").uses, 1U);
   EXPECT_EQ(desk.now("user").refusals, 1U);
+}
+
+// The output stage is silent after a fault, with the finger in a body: the frame would carry it deeper, and the next
+// re-arm would push the hand out.
+TEST(FrameDrive, AFrameRestsWhileAForceOfZeroSaysNothing) {
+  Desk desk;
+  desk.wish.walk = {1, 0, 0};
+  for (int n = 0; n < 300; ++n) desk.tick();
+  desk.doubt(true);
+  desk.tick();
+  const Vec3 there = desk.tick().p_WH;
+  for (int n = 0; n < 300; ++n) EXPECT_LT((desk.tick().p_WH - there).norm(), kRoundedOff);
+  desk.doubt(false);
+  for (int n = 0; n < 500; ++n) desk.tick();
+  EXPECT_GT((desk.tick().p_WH - there).norm(), 0.01);
+}
+
+// A sample that is no number, or a kilometre away, while clutch and zoom are on: it would stay in the frame's place.
+TEST(FrameDrive, AnImpossibleSampleMovesNoFrame) {
+  for (const double wrong : {static_cast<double>(NAN), 1000.0}) {
+    Desk desk;
+    for (int n = 0; n < 100; ++n) desk.tick();
+    const Vec3 there = desk.tick().p_WH, hand = desk.hand->sample.p_WH;
+    desk.hand->sample.p_WH.x() = wrong;
+    for (int n = 0; n < 5; ++n) desk.tick(kClutch | kCoarser);
+    desk.hand->sample.p_WH = hand;
+    desk.rearm();
+    for (int n = 0; n < 5; ++n) desk.tick();
+    EXPECT_LT((desk.tick().p_WH - there).norm(), kRoundedOff) << wrong;
+    for (int n = 0; n < 300; ++n) desk.tick();  // it rests for 0.2 s after a step that it took back
+    const Vec3 before = desk.tick(kClutch).p_WH;
+    EXPECT_LT((desk.tick(kClutch, {0.001, 0, 0}).p_WH - before).norm(), kRoundedOff) << "the clutch works again";
+  }
 }
 
 // Ticks that are caught up are not written: nobody knows whether a step was free, so the frame takes no second one.

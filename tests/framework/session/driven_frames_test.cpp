@@ -184,6 +184,36 @@ TEST(DrivenFrames, ARestlessUserGetsNoStepAndNoEnergy) {
 }
 
 // A button that no device of the frame has; a device in another frame does not count.
+// A rig without frames, in which one device stands on the tool of another: its samples are turned into the world all the
+// same. Both hands rest, the second 10 mm along x of the first tool, which has the world's axes.
+TEST(DrivenFrames, ADeviceOnAToolNeedsNoFrame) {
+  const std::string motion = write("rest.csv",
+                                   "time_s,role,x_m,y_m,z_m\n0,thumb,0.1,0.2,0.3\n1,thumb,0.1,0.2,0.3\n"
+                                   "0,index,0.01,0,0\n1,index,0.01,0,0\n");
+  const auto on = [&](const std::string& role, const std::string& in) {
+    return "<device role=\"" + role + "\" driver=\"scripted\"" + in + "><set key=\"motion\" value=\"" + motion +
+           "\"/></device>";
+  };
+  const std::string rig_file = write(
+      "tool_rig.xml", "<rig version=\"1.0\" name=\"r\">" + on("thumb", "") + on("index", " in=\"thumb\"") + "</rig>");
+  const std::string scene_file = write(
+      "tool_scene.xml",
+      scene("<body name=\"floor\" fixed=\"true\" material=\"rubber\" pos=\"0 0 -1\"><haptic><box size=\"1 1 "
+            "0.1\"/></haptic></body>",
+            "<device role=\"thumb\" fingertip_radius=\"0.008\"/><device role=\"index\" fingertip_radius=\"0.008\"/>"));
+  Diagnostics diagnostics;
+  Loaded loaded = loadWorld({scene_file, rig_file, {}}, {}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  RunControl control;
+  Session session(std::move(loaded), control, {});
+  ASSERT_EQ(session.devices().size(), 2u);
+  const Tick tick{1, 1e-3, 1e-3};
+  const Vec3 thumb = session.devices()[0]->read(tick).p_WH;
+  const Vec3 index = session.devices()[1]->read(tick).p_WH;
+  EXPECT_LT((index - thumb - Vec3(0.01, 0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(thumb.y(), 0.2, 1e-9);
+}
+
 TEST(DrivenFrames, AButtonThatNoDeviceHasIsAnErrorAtItsPlace) {
   setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1);
   const std::string scene_file = write("button.xml", scene(kCube, kTwo)), motion = graspMotion();
