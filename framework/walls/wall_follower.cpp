@@ -1,17 +1,8 @@
 #include "framework/walls/wall_follower.h"
 
-#include <cmath>
+#include "framework/walls/sound.h"
 
 namespace presa::walls {
-namespace {
-
-bool isSound(const bus::WallFrame& frame) {
-  constexpr double kRounding = 1e-6;  // of a unit quaternion
-  return frame.leader != 0 && frame.number != 0 && std::isfinite(frame.time) && frame.X_KHead.p.allFinite() &&
-         std::abs(frame.X_KHead.q.norm() - 1) < kRounding;
-}
-
-}  // namespace
 
 WallFollower::WallFollower(std::uint64_t sender, const std::string& wall, const Pose& rest) {
   said_.sender = sender;

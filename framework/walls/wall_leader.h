@@ -9,8 +9,9 @@
 namespace presa::walls {
 
 /// Keeps walls in step: announces a frame only when every wall has drawn the one before, so that no wall is ever more
-/// than one frame ahead of another. A wall that says nothing for kPatience is left behind until it speaks again.
-/// Times are those of CLOCK_MONOTONIC. Thread: one.
+/// than one frame ahead of another. A wall that says nothing for kPatience is left behind until it speaks again; one
+/// that speaks but does not draw the frame for so long, until it draws one. Times are those of CLOCK_MONOTONIC.
+/// Thread: one.
 class WallLeader {
  public:
   static constexpr std::int64_t kPatience = 1'000'000'000;  ///< [ns]
@@ -20,10 +21,11 @@ class WallLeader {
 
   explicit WallLeader(std::uint64_t id) { frame_.leader = id; }
 
-  void hear(const bus::WallDrawn& drawn, std::int64_t now_ns);
+  /// False: the message is damaged or forged, or there are too many processes; it changed nothing.
+  bool hear(const bus::WallDrawn& drawn, std::int64_t now_ns);
   /// Whether the next frame may be announced.
   bool ready(std::int64_t now_ns);
-  /// The next frame; the caller sends it.
+  /// The next frame; the caller sends it. In place of an unsound head (sound.h) the last one is announced.
   const bus::WallFrame& next(std::uint64_t run, double time, const Pose& X_KHead, bool tracked, std::int64_t now_ns);
   /// The last frame again, when walls have not answered for kRepeat; else null.
   const bus::WallFrame* again(std::int64_t now_ns);
@@ -39,14 +41,18 @@ class WallLeader {
   struct Member {
     std::string wall;
     std::uint64_t number = 0;
-    std::int64_t heard_ns = 0;
-    bool behind = false;
+    std::int64_t heard_ns = 0, since_ns = 0;  // last word; since when it takes part
+    bool behind = true;                       // not waited for, as before its first word
+    bool idle = false;                        // behind although it speaks
   };
+  bool makeRoom();
+  void compare(std::uint64_t state);
+
   bus::WallFrame frame_;
   std::map<std::uint64_t, Member> members_;  // by sender
   std::uint64_t state_ = 0, left_behind_ = 0, differing_ = 0;
   bool state_known_ = false, frame_differs_ = false;
-  std::int64_t sent_ns_ = 0;
+  std::int64_t announced_ns_ = 0, sent_ns_ = 0;  // of the frame: first and last time
 };
 
 }  // namespace presa::walls

@@ -4,8 +4,10 @@
 #include <cstdio>
 
 #include "framework/bus/publisher.h"
+#include "framework/core/diagnostics/printable.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/math/fnv.h"
+#include "framework/walls/sound.h"
 
 namespace presa {
 namespace {
@@ -17,6 +19,7 @@ enum CaveCode { kTwoLeaders = 767 };
 constexpr std::int64_t kListens = 300'000'000;       ///< before it leads: does another process lead? [ns]
 constexpr std::int64_t kStateDue = 30'000'000;       ///< longest wait for the state of a frame [ns]
 constexpr std::int64_t kFrozenPeriod = 100'000'000;  ///< between the pictures of a frozen wall [ns]
+constexpr std::int64_t kTold = 5'000'000'000;        ///< how long another leader is told of [ns]
 
 walls::Walls wallsOf(const std::string& file) {
   Diagnostics diagnostics;
@@ -25,10 +28,16 @@ walls::Walls wallsOf(const std::string& file) {
   return walls;
 }
 
+/// Names from the bus, for a terminal.
 std::string joined(const std::vector<std::string>& names) {
   std::string all;
-  for (const std::string& name : names) (all += all.empty() ? "" : ", ") += name;
+  for (const std::string& name : names) (all += all.empty() ? "" : ", ") += printable(name);
   return all;
+}
+
+/// The picture of another run keeps its own time: it would go on from that of the frame.
+void showFrame(bus::RemotePicture& picture, const bus::WallFrame& frame) {
+  if (picture.run() == frame.run) picture.showAt(frame.time);
 }
 
 template <class... Values>
@@ -88,16 +97,25 @@ void Cave::hear(std::int64_t now_ns) {
   for (const bus::WallFrame& frame : arrived.frames) {
     if (frame.leader == id_) continue;  // heard when it was sent
     if (leader_)
-      refuse(kTwoLeaders, "--head", "another process leads these walls already",
-             "one process has --head; another CAVE needs another --domain");
-    if (follower_) follower_->hear(frame, now_ns);
+      hearOtherLeader(frame, now_ns);
+    else if (follower_)
+      follower_->hear(frame, now_ns);
   }
   if (!leader_) return;
   for (const bus::WallDrawn& drawn : arrived.drawn) {
     if (drawn.sender == id_) continue;
-    leader_->hear(drawn, now_ns);
-    if (leader_->frames() == 0 && drawn.number > 0) head_->startFrom(drawn.X_KHead);
+    const bool taken = leader_->hear(drawn, now_ns);
+    if (taken && leader_->frames() == 0 && drawn.number > 0) head_->startFrom(drawn.X_KHead);
   }
+}
+
+// Once it leads, no other process ends it: the walls follow the leader that they heard first.
+void Cave::hearOtherLeader(const bus::WallFrame& frame, std::int64_t now_ns) {
+  if (!walls::isSound(frame)) return;
+  if (leader_->frames() == 0)
+    refuse(kTwoLeaders, "--head", "another process leads these walls already",
+           "one process has --head; another CAVE needs another --domain");
+  other_leader_ns_ = now_ns;
 }
 
 void Cave::lead(const bus::RemotePicture& picture, std::int64_t now_ns) {
@@ -125,17 +143,17 @@ bool Cave::follow(bus::RemotePicture& picture, std::int64_t now_ns) {
   }
   if (!follower_->led()) return now_ns - last_ns_ >= period();
   const bus::WallFrame& frame = follower_->frame();
+  frozen_ = drew_ && follower_->due() == nullptr && follower_->leaderLost(now_ns);
   if (!drew_ || follower_->due() == nullptr) {
-    picture.showAt(frame.time);
-    if (!drew_) return true;
-    return follower_->leaderLost(now_ns) && now_ns - last_ns_ >= kFrozenPeriod;
+    showFrame(picture, frame);
+    return !drew_ || (frozen_ && now_ns - last_ns_ >= kFrozenPeriod);
   }
   if (waits_since_ns_ == 0) waits_since_ns_ = now_ns;
   const bool here = picture.run() == frame.run && picture.newest() >= frame.time;
   if (!here && now_ns - waits_since_ns_ < kStateDue) return false;
   if (!here) ++late_;
   waits_since_ns_ = 0;
-  picture.showAt(frame.time);
+  showFrame(picture, frame);
   look(frame.X_KHead);
   shows_due_ = true;
   return true;
@@ -165,6 +183,8 @@ std::string Cave::line(std::int64_t now_ns) const {
     const std::vector<std::string> present = leader_->present();
     text = "leads " + (present.empty() ? "no wall yet" : joined(present)) + print(", %.1f frames/s", frameRate());
     if (head_->lost()) text += ", HEAD LOST: it stays where it was";
+    if (other_leader_ns_ != 0 && now_ns - other_leader_ns_ < kTold)
+      text += ", ANOTHER LEADER is ignored: only one process has --head";
   } else if (!follower_->led()) {
     text = "no leader: this wall runs alone";
   } else if (follower_->leaderLost(now_ns)) {
@@ -174,7 +194,7 @@ std::string Cave::line(std::int64_t now_ns) const {
     if (!follower_->frame().tracked) text += ", HEAD LOST: it stays where it was";
   }
   if (wall_ != nullptr) text = "wall " + wall_->name + ": " + text;
-  if (behind_wall_) text += ", the eye is behind the wall: its picture is frozen";
+  if (behind_wall_) text += ", the eye is behind the wall: drawn from its last place before it";
   if (canvas_.quad_refused) text += ", no quad-buffered stereo here: one picture for both eyes";
   return text;
 }

@@ -24,13 +24,16 @@ struct CaveSettings {
 /// This process's part in a CAVE: a wall, the head and the lead, or both. Thread: main.
 class Cave {
  public:
-  /// Throws InputError: the walls or the head cannot be read, E767 another process leads already.
+  /// Throws InputError: the walls or the head cannot be read.
   Cave(const CaveSettings& settings, const BusSettings& bus);
 
   /// What the view draws on; null: this process has no wall.
   walls::Canvas* canvas() { return wall_ != nullptr ? &canvas_ : nullptr; }
-  /// Decides what the next picture shows; false: there is nothing new to draw. Call after picture.advance().
+  /// Decides what the next picture shows; false: there is nothing new to draw. Call after picture.advance(). Throws
+  /// InputError E767 another process leads already, before the first frame that this one announces.
   bool next(bus::RemotePicture& picture, std::int64_t now_ns);
+  /// Whether the next picture shows the states of the last one, as the leader is lost.
+  bool frozen() const noexcept { return frozen_; }
   /// That picture is on the wall; `state`: hash of the drawn poses.
   void drawn(std::uint64_t state, std::int64_t now_ns);
 
@@ -41,6 +44,7 @@ class Cave {
 
  private:
   void hear(std::int64_t now_ns);
+  void hearOtherLeader(const bus::WallFrame& frame, std::int64_t now_ns);
   void lead(const bus::RemotePicture& picture, std::int64_t now_ns);
   bool follow(bus::RemotePicture& picture, std::int64_t now_ns);
   void look(const Pose& X_KHead);
@@ -52,6 +56,7 @@ class Cave {
   const walls::Wall* const wall_;  // null: none
   walls::Canvas canvas_;
   bool behind_wall_ = false;
+  bool frozen_ = false;
   bool drew_ = false;       // some picture
   bool shows_due_ = false;  // the next picture is an announced frame
   const std::unique_ptr<bus::WallLink> link_;
@@ -59,7 +64,7 @@ class Cave {
   std::unique_ptr<HeadTracker> head_;            // of the leader
   std::optional<walls::WallLeader> leader_;      // of the leader
   std::optional<walls::WallFollower> follower_;  // with a wall
-  std::int64_t begin_ns_ = 0, announced_ns_ = 0, waits_since_ns_ = 0;
+  std::int64_t begin_ns_ = 0, announced_ns_ = 0, waits_since_ns_ = 0, other_leader_ns_ = 0;
   std::int64_t first_ns_ = 0, last_ns_ = 0;  // of the frames
   std::uint64_t frames_ = 0, late_ = 0;
 };

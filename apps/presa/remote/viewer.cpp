@@ -12,6 +12,7 @@
 #include "framework/bus/mesh_store.h"
 #include "framework/bus/remote_picture.h"
 #include "framework/core/diagnostics/printable.h"
+#include "framework/core/diagnostics/refuse.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/scene/load.h"
@@ -28,10 +29,13 @@ constexpr std::int64_t kPoll = 1'000'000;  ///< of a process of a CAVE [ns]
 /// Writes the remote states to the ports that a view reads. Runs in the view group, before the view.
 class RemoteSource final : public Module {
  public:
-  RemoteSource(RemotePicture& picture, View*& view)
-      : Module("remote", RateGroup::kView), picture_(picture), view_(view) {}
+  /// `cave`: null without one.
+  RemoteSource(RemotePicture& picture, View*& view, const Cave* cave)
+      : Module("remote", RateGroup::kView), picture_(picture), view_(view), cave_(cave) {}
   void step(const Tick&) noexcept override {
-    picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
+    // the picture forgets the states that a frozen wall shows, as new ones arrive
+    if (cave_ == nullptr || !cave_->frozen())
+      picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
     if (view_ != nullptr) view_->setBanner(picture_.line(), picture_.alarm());
   }
   const ObjectState& objects() const { return objects_.value; }
@@ -39,6 +43,7 @@ class RemoteSource final : public Module {
  private:
   RemotePicture& picture_;
   View*& view_;
+  const Cave* const cave_;
   Out<ObjectState> objects_{*this, "object_state"};
   Out<DeviceState> device_{*this, "device_state"};
   Out<ContactExchange> contact_{*this, "contact_exchange"};
@@ -82,7 +87,7 @@ class Viewer {
     }
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
-    auto source = std::make_unique<RemoteSource>(picture_, view_);
+    auto source = std::make_unique<RemoteSource>(picture_, view_, cave_.get());
     source_ = source.get();
     builder.add(std::move(source));
     if (world_->scene.assembly) builder.add(std::make_unique<GuideModule>(world_));
@@ -168,6 +173,9 @@ int showRemote(const ViewerSettings& settings) {
                       "use --view offscreen");
     throw InputError(diagnostics);
   }
+  if (settings.view == RunOptions::View::kNone && !settings.cave.wall.empty())
+    refuse(121, "--wall", "a wall needs a view, found --view none, or no display",
+           "DISPLAY is the screen of the wall's projector; without one use --view offscreen");
   const terminal::Interruption interruption;
   const auto reader = bus::openReader(settings.bus);
   const auto run = awaitRun(*reader, settings.wait);

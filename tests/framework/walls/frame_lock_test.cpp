@@ -91,6 +91,50 @@ TEST_F(Lock, AWallThatFallsSilentIsLeftBehindUntilItSpeaks) {
   EXPECT_TRUE(leader.ready(now));
 }
 
+TEST_F(Lock, AWallThatSpeaksButDoesNotDrawIsLeftBehindUntilItDraws) {
+  greet();
+  announce(0.5);
+  front.hear(last, now);
+  draw(front);
+  now += WallLeader::kPatience + 1;
+  greet();  // front repeats its answer, left its greeting
+  EXPECT_TRUE(leader.ready(now));
+  EXPECT_EQ(leader.leftBehind(), 1u);
+  EXPECT_THAT(leader.present(), ElementsAre("front"));
+  now += WallFollower::kGreeting;
+  greet();
+  EXPECT_TRUE(leader.ready(now));  // a greeting is no frame
+  left.hear(last, now);
+  draw(left);
+  EXPECT_THAT(leader.present(), ElementsAre("front", "left"));
+  announce(0.6);
+  front.hear(last, now);
+  draw(front);
+  EXPECT_FALSE(leader.ready(now));  // left is waited for again
+}
+
+TEST_F(Lock, AWallThatJoinsLateHasItsTimeToDraw) {
+  announce(0.5);
+  now += WallLeader::kPatience + 1;
+  greet();
+  EXPECT_FALSE(leader.ready(now));
+  EXPECT_EQ(leader.leftBehind(), 0u);
+}
+
+TEST_F(Lock, WallsThatHaveEndedLeaveTheirPlaces) {
+  const auto greetAs = [&](std::uint64_t sender) {
+    WallFollower wall(sender, "floor", kHead);
+    return leader.hear(*wall.again(now), now);
+  };
+  for (std::uint64_t sender = 1; sender <= WallLeader::kMost; ++sender) EXPECT_TRUE(greetAs(sender));
+  EXPECT_FALSE(greetAs(1000));
+  now += WallLeader::kPatience + 1;
+  EXPECT_TRUE(greetAs(7));
+  EXPECT_TRUE(leader.ready(now));  // and leaves all others behind
+  EXPECT_TRUE(greetAs(1000));
+  EXPECT_EQ(leader.present().size(), 2u);
+}
+
 TEST_F(Lock, AWallFollowsOneLeaderUntilItIsLost) {
   announce(0.5);
   front.hear(last, now);
@@ -124,6 +168,35 @@ TEST_F(Lock, DamagedFramesAreIgnored) {
   forged.number = 1000;  // never announced
   leader.hear(forged, now);
   EXPECT_TRUE(leader.present().empty());
+}
+
+TEST_F(Lock, DamagedAnswersAreIgnored) {
+  announce(0.5);
+  front.hear(last, now);
+  const bus::WallDrawn good = front.drawn(5, now);
+  bus::WallDrawn bad = good;
+  bad.X_KHead.p.x() = std::nan("");
+  EXPECT_FALSE(leader.hear(bad, now));
+  bad = good;
+  bad.X_KHead.q.coeffs().setZero();
+  EXPECT_FALSE(leader.hear(bad, now));
+  bad = good;
+  bad.time = INFINITY;
+  EXPECT_FALSE(leader.hear(bad, now));
+  EXPECT_TRUE(leader.present().empty());
+  EXPECT_TRUE(leader.hear(good, now));
+}
+
+TEST_F(Lock, NoHeadThatWallsIgnoreIsAnnounced) {
+  announce(0.5);
+  Pose bad = kHead;
+  bad.p.z() = std::nan("");
+  last = leader.next(7, 0.6, bad, true, now);
+  EXPECT_EQ(last.X_KHead.p, kHead.p);
+  EXPECT_FALSE(last.tracked);
+  front.hear(last, now);
+  ASSERT_NE(front.due(), nullptr);
+  EXPECT_EQ(front.due()->time, 0.6);
 }
 
 // Whatever is lost, and whatever order the processes run in: no wall shows frame n + 1 before all have shown frame n.

@@ -192,30 +192,60 @@ TEST(Walls, ALostTrackerFreezesTheHeadAndIsTold) {
   EXPECT_NEAR(*frozen.begin(), -0.8 + 0.058 * 1.6, 0.01);
 }
 
-TEST(Walls, AnEyeBehindAWallFreezesThatWallAndIsTold) {
+TEST(Walls, AnEyeBehindAWallIsTold) {
   const BusSettings bus = ownDomain();
   const auto run = runCube(bus, "60");
   ViewerProcess front(caveProcess({"--wall", "front", "--view", "offscreen"}), bus);
   const std::string rig = headRig("behind", "0,head,0,1.7,1.7,1,0,0,0\n1,head,0,1.7,1.7,1,0,0,0\n");
   const ViewerProcess leader(caveProcess({"--head", rig, "--quiet"}), bus);
-  EXPECT_TRUE(front.says("the eye is behind the wall: its picture is frozen"));
+  EXPECT_TRUE(front.says("the eye is behind the wall: drawn from its last place before it"));
+}
+
+/// Listens for a while, and says `also` all the time; the highest number of a frame of somebody else, 0: none.
+std::uint64_t newestFrame(WallLink& link, double seconds, const WallFrame* also = nullptr) {
+  std::uint64_t newest = 0;
+  const std::int64_t end = monotonicNs() + static_cast<std::int64_t>(seconds * 1e9);
+  while (monotonicNs() < end && (also != nullptr || newest == 0)) {
+    if (also != nullptr) link.send(*also);
+    const WallLink::Arrived arrived = link.take();
+    for (const WallFrame& frame : arrived.frames)
+      if (also == nullptr || frame.leader != also->leader) newest = std::max(newest, frame.number);
+    sleepUntilNs(monotonicNs() + 20'000'000);
+  }
+  return newest;
 }
 
 TEST(Walls, TwoLeadersAreRefused) {
   const BusSettings bus = ownDomain();
+  const auto link = openWallLink(bus);
   const auto run = runCube(bus, "60");
   ViewerProcess leader(caveProcess({"--head", kHeadRig}), bus);
   ASSERT_TRUE(leader.says("leads no wall yet"));
-  const Said said = say(bus, caveProcess({"--head", kHeadRig, "--quiet"}));
+  ASSERT_GT(newestFrame(*link, kPatience), 0u);
+  const Said said = say(bus, caveProcess({"--head", kHeadRig, "--quiet", "--for", "30"}));
   EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.text, HasSubstr("error[E767]: another process leads these walls already"));
+}
+
+// Frames of another leader, even forged ones, do not end a leader that has begun: its own frames go on.
+TEST(Walls, ALeaderThatHasBegunIgnoresAnother) {
+  const BusSettings bus = ownDomain();
+  const auto link = openWallLink(bus);
+  const auto run = runCube(bus, "60");
+  ViewerProcess leader(caveProcess({"--head", kHeadRig}), bus);
+  ASSERT_GT(newestFrame(*link, kPatience), 0u);  // it leads
+  const WallFrame forged{1, 1, 1, 0, {Vec3::Zero(), Quat::Identity()}, true};
+  const std::uint64_t before = newestFrame(*link, 3, &forged);  // longer than between two lines of its terminal
+  EXPECT_GT(newestFrame(*link, 1, &forged), before);
+  EXPECT_TRUE(leader.says("ANOTHER LEADER is ignored"));
 }
 
 TEST(Walls, MistakesAreNamed) {
   const BusSettings bus = ownDomain();
   const auto run = runCube(bus, "60");
   const auto finds = [&](std::vector<std::string> more) { return say(bus, caveProcess(std::move(more))).text; };
-  EXPECT_THAT(finds({"--wall", "fron"}), HasSubstr("error[E764]: no wall 'fron'"));
+  EXPECT_THAT(finds({"--wall", "fron", "--view", "offscreen"}), HasSubstr("error[E764]: no wall 'fron'"));
+  EXPECT_THAT(finds({"--wall", "front", "--view", "none"}), HasSubstr("error[E121]: a wall needs a view"));
   EXPECT_THAT(finds({}), HasSubstr("error[E123]: needs --wall NAME, --head RIG, or both"));
   EXPECT_THAT(finds({"--wall", "front", "--hud", "off"}), HasSubstr("error[E123]: says nothing on a wall"));
   EXPECT_THAT(finds({"--head", std::string(PRESA_SOURCE_DIR) + "/config/rigs/pinch_cube.xml"}),
