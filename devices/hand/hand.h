@@ -38,6 +38,8 @@ class Hand {
   /// Throws InputError when the hand cannot work in this run.
   virtual void open() {}
   virtual FingerImpedance impedance() const = 0;
+  /// Of the hand [N s/m], as Device::damping.
+  virtual double damping() const { return impedance().damping; }
   virtual Vec3 start() const = 0;  ///< fingertip at time 0, frame W [m]
 
   /// The fingertip at this moment; called whenever its state or the force on it has changed.

@@ -20,7 +20,7 @@ class WornDevice : public Device {
   std::vector<double> phaseTimes() const override { return hand_->phaseTimes(); }
   std::vector<PhaseIntent> phaseIntents() const override { return hand_->phaseIntents(); }
   std::vector<std::string> notes() const override { return hand_->notes(); }
-  double damping() const override { return hand_->impedance().damping; }
+  double damping() const override { return hand_->damping(); }
   double mass() const override { return hand_->impedance().mass; }
 
  protected:

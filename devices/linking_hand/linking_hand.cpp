@@ -44,18 +44,20 @@ std::vector<double> numbersOf(const DeviceBinding& binding, const std::string& k
   return numbers;
 }
 
-PairSettings readPair(const std::vector<Thimble>& thimbles, Diagnostics& diagnostics) {
+/// The settings that one role gives; the bases are those of both.
+PairSettings readPair(const std::vector<Thimble>& thimbles, std::size_t role, Diagnostics& diagnostics) {
   PairSettings pair;
-  const DeviceBinding& first = thimbles.front().binding;
-  pair.link = positiveSetting(first, "link", pair.link, diagnostics);
-  pair.size = positiveSetting(first, "size", pair.size, diagnostics);
-  pair.seed = static_cast<std::uint64_t>(positiveSetting(first, "seed", 1, diagnostics));
+  const DeviceBinding& binding = thimbles[role].binding;
+  pair.link = positiveSetting(binding, "link", pair.link, diagnostics);
+  pair.size = positiveSetting(binding, "size", pair.size, diagnostics);
+  const std::vector<double> seed = numbersOf(binding, "seed");
+  if (!seed.empty() && seed[0] >= 0 && seed[0] < 9e15) pair.seed = static_cast<std::uint64_t>(seed[0]);
   for (std::size_t i : {0U, 1U}) {
     const std::vector<double> p = numbersOf(thimbles[i].binding, "pos");
     if (p.size() == 3) pair.p_WD[i] = {p[0], p[1], p[2]};
   }
-  const auto leads = first.settings.find("leads");
-  if (leads == first.settings.end()) return pair;
+  const auto leads = binding.settings.find("leads");
+  if (leads == binding.settings.end()) return pair;
   if (leads->second.value == thimbles[0].binding.role)
     pair.leader = 0;
   else if (leads->second.value != thimbles[1].binding.role)
@@ -75,8 +77,15 @@ HandList createHands(const std::vector<Thimble>& thimbles, const std::shared_ptr
     return hands;
   }
   const std::size_t before = diagnostics.errorCount();
-  const auto pair = std::make_shared<LinkedPair>(readPair(thimbles, diagnostics));
+  const PairSettings settings = readPair(thimbles, 0, diagnostics);
+  const bool equal = readPair(thimbles, 1, diagnostics) == settings;
+  if (!equal || settings.p_WD[0] == settings.p_WD[1])
+    diagnostics.error(kNotTwo, thimbles[1].binding.where,
+                      equal ? "a linking hand links devices with two bases, found one place for both"
+                            : "role '" + thimbles[1].binding.role + "' has other settings than the other device",
+                      equal ? "worn by modelled devices, each with its pos" : "leads, link, size and seed are of both");
   if (diagnostics.errorCount() > before) return hands;
+  const auto pair = std::make_shared<LinkedPair>(settings);
   for (std::size_t i : {0U, 1U}) hands[i] = std::make_unique<LinkingHand>(pair, i);
   return hands;
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "devices/percro_arm/dynamics.h"
+#include "devices/percro_arm/properties.h"
 
 namespace presa::percro {
 namespace {
@@ -98,7 +99,10 @@ std::optional<std::vector<double>> DrawnArm::heat() const {
 std::unique_ptr<DeviceFigure> makeDrawnArm(const DeviceBinding& binding) {
   const std::vector<double> p = numbersIn(binding, "pos"), q = numbersIn(binding, "quat");
   if (p.size() != 3 || q.size() != 4) return nullptr;
-  return std::make_unique<DrawnArm>(paperArm(), Pose{{p[0], p[1], p[2]}, Quat(q[0], q[1], q[2], q[3]).normalized()});
+  Parameters arm = paperArm();
+  if (const auto without = binding.settings.find("without"); without != binding.settings.end())
+    removeProperties(without->second.value, arm);
+  return std::make_unique<DrawnArm>(arm, Pose{{p[0], p[1], p[2]}, Quat(q[0], q[1], q[2], q[3]).normalized()});
 }
 
 }  // namespace presa::percro

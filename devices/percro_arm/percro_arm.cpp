@@ -113,19 +113,14 @@ percro::Parameters readArm(const DeviceBinding& binding, Diagnostics& diagnostic
   const auto without = binding.settings.find("without");
   if (without == binding.settings.end()) return arm;
   std::vector<std::string> known;
-  for (const percro::Property& property : percro::properties()) known.emplace_back(property.name);
-  std::istringstream words(without->second.value);
-  for (std::string word; words >> word;) {
-    const auto found = std::ranges::find(percro::properties(), word, &percro::Property::name);
-    if (found != percro::properties().end()) {
-      found->remove(arm);
-      continue;
-    }
-    std::string list;
-    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  std::string list;
+  for (const percro::Property& property : percro::properties()) {
+    known.emplace_back(property.name);
+    list += (list.empty() ? "" : ", ") + known.back();
+  }
+  for (const std::string& word : percro::removeProperties(without->second.value, arm))
     diagnostics.error(kNoProperty, without->second.where,
                       "the arm has no property " + quote(word) + didYouMean(word, known), "properties: " + list);
-  }
   return arm;
 }
 

@@ -1,6 +1,8 @@
 #include "devices/percro_arm/properties.h"
 
+#include <algorithm>
 #include <array>
+#include <sstream>
 
 namespace presa::percro {
 namespace {
@@ -33,7 +35,7 @@ constexpr std::array kProperties{
              }},
     Property{"inertia", "links and rotors have mass", lighten},
     Property{"bandwidth", "the current loop lags", [](Parameters& arm) { arm.motors.current_bandwidth = kFastLoop; }},
-    Property{"heat", "warm motors give less torque", [](Parameters& arm) {
+    Property{"heat", "motors have a peak torque, and less when they are warm", [](Parameters& arm) {
                arm.motors.continuous_torque *= kStrong;
                arm.motors.peak_torque *= kStrong;
              }}};
@@ -41,5 +43,18 @@ constexpr std::array kProperties{
 }  // namespace
 
 std::span<const Property> properties() { return kProperties; }
+
+std::vector<std::string> removeProperties(const std::string& words, Parameters& arm) {
+  std::vector<std::string> unknown;
+  std::istringstream text(words);
+  for (std::string word; text >> word;) {
+    const auto found = std::ranges::find(kProperties, word, &Property::name);
+    if (found == kProperties.end())
+      unknown.push_back(word);
+    else
+      found->remove(arm);
+  }
+  return unknown;
+}
 
 }  // namespace presa::percro

@@ -80,6 +80,7 @@ class WornDigit final : public Hand {
   FingerImpedance impedance() const override {
     return {.mass = subject_->settings().parameters.hand_mass, .stiffness = 0, .damping = 0};
   }
+  double damping() const override { return subject_->settings().parameters.grip_damping; }
   Vec3 start() const override { return subject_->start(digit_); }
   void feel(const Fingertip& tip) noexcept override { subject_->feel(digit_, tip); }
   HandPush live(const Tick& tick) noexcept override { return subject_->push(digit_, tick); }

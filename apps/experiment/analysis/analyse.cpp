@@ -88,6 +88,7 @@ Result analyse(const Request& request, const Progress& progress) {
       request.experiment.empty() ? sessions.front().folder.file("experiment.xml") : request.experiment;
   Experiment experiment = readDefinition(file);
   Trials trials = trialsOf(experiment, sessions);
+  if (request.keeps) trials.keep(request.keeps);
   Result result{request.data, file, std::move(experiment), std::move(trials)};
   result.notes = notesOn(request, sessions, result.trials);
   if (result.trials.size() == 0) return result;

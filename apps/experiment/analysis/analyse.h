@@ -11,6 +11,7 @@ struct Request {
   std::string data;          ///< folder of a dataset, or of one session
   std::string experiment;    ///< experiment file that defines the analysis; empty: the dataset's own copy
   std::size_t subjects = 0;  ///< only the first so many of the dataset; 0: all
+  TrialChoice keeps = {};    ///< only these trials; empty: all
 };
 
 /// The analysis of one dataset. Deterministic: the same data and analysis give the same text.

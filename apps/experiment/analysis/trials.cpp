@@ -179,6 +179,21 @@ std::vector<int> Trials::subjectsOf(const std::vector<std::size_t>& of) const {
   return found;
 }
 
+void Trials::keep(const TrialChoice& chosen) {
+  std::vector<std::size_t> kept;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (chosen(subjects[rows[row].subject], rows[row].number)) kept.push_back(row);
+  }
+  const auto only = [&](auto& column) {
+    std::remove_reference_t<decltype(column)> left;
+    for (const std::size_t row : kept) left.push_back(std::move(column[row]));
+    column = std::move(left);
+  };
+  only(rows);
+  for (auto& [name, column] : numbers) only(column);
+  for (auto& [name, column] : labels) only(column);
+}
+
 std::vector<Group> groupsBy(const Experiment& experiment, const Trials& trials, const std::vector<std::string>& names,
                             const std::vector<std::size_t>& of) {
   std::vector<Group> groups{{{}, of}};

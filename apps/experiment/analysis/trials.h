@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ struct LeftOut {
   std::string what, why;  ///< what: "excluded" or "missing"
 };
 
+/// Whether a trial of a subject takes part.
+using TrialChoice = std::function<bool(const std::string& subject, int trial)>;
+
 /// The trials of all sessions that count, one row each; practice and excluded trials are left out.
 struct Trials {
   struct Row {
@@ -50,6 +54,8 @@ struct Trials {
   std::vector<std::size_t> complete(const std::vector<std::string>& names) const;
   std::vector<double> numbersOf(const std::string& name, const std::vector<std::size_t>& of) const;
   std::vector<int> subjectsOf(const std::vector<std::size_t>& of) const;
+  /// Leaves the rows of these trials.
+  void keep(const TrialChoice& chosen);
 };
 
 /// Trials that share the levels of the grouping variables.

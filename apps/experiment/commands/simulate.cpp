@@ -68,17 +68,38 @@ std::optional<Experiment> readSimulated(const StudiesPlan& plan) {
   return experiment;
 }
 
+/// Writes the rig of each variation and reads it, so that a mistake is found before anything is simulated.
+std::vector<Experiment> readVariations(const std::vector<Variation>& variations, const std::string& rig_xml) {
+  std::vector<Experiment> experiments;
+  for (const Variation& variation : variations) {
+    std::error_code error;
+    fs::create_directories(variation.plan.out, error);
+    if (error) refuse(951, variation.plan.out, "the folder cannot be made: " + error.message());
+    writeFileAtomically(variation.plan.rig_file, rigWith(rig_xml, variation));
+    auto experiment = readSimulated(variation.plan);
+    if (!experiment) return {};
+    claimFolder(variation.plan, *experiment);
+    experiments.push_back(std::move(*experiment));
+  }
+  return experiments;
+}
+
+/// Simulates all variations; those with a failed session are not compared.
 int simulateVariations(const StudiesPlan& plan, const Experiment& given, const std::vector<std::string>& settings) {
   const std::vector<Variation> variations = variationsOf(plan, settings);
-  for (const Variation& variation : variations) {
-    fs::create_directories(variation.plan.out);
-    writeFileAtomically(variation.plan.rig_file, rigWith(given.rig_xml, variation));
-    const auto experiment = readSimulated(variation.plan);
-    if (!experiment) return kExitBadInput;
-    std::printf("%s\n", variation.name().c_str());
-    if (const auto status = complete(variation.plan, *experiment)) return *status;
+  const std::vector<Experiment> experiments = readVariations(variations, given.rig_xml);
+  if (experiments.empty()) return kExitBadInput;
+  std::vector<Variation> whole;
+  for (std::size_t v = 0; v < variations.size(); ++v) {
+    std::printf("%s\n", variations[v].name().c_str());
+    const auto status = complete(variations[v].plan, experiments[v]);
+    if (status == kExitInterrupted) return *status;
+    if (!status) whole.push_back(variations[v]);
   }
-  return plan.shards > 1 ? kExitOk : reportVariations(plan.out, variations, given);
+  if (plan.shards > 1) return whole.size() == variations.size() ? kExitOk : kExitFault;
+  if (whole.empty() || !whole.front().key.empty()) return kExitFault;  // nothing to compare with
+  const int status = reportVariations(plan.out, whole, given);
+  return status == kExitOk && whole.size() < variations.size() ? kExitFault : status;
 }
 
 int simulate(StudiesPlan plan, const std::string& shard, const std::vector<std::string>& varied) {

@@ -61,6 +61,13 @@ RigBases::RigBases(const std::string& file) : file_(file) {
   for (int i = 0; i < 2; ++i) {
     const Element& device = devices[static_cast<std::size_t>(i)];
     roles_[i] = device.attribute("role");
+    if (device.hasAttribute("in") && device.attribute("in") != kWorldFrame) {
+      Diagnostics found;
+      found.error(473, device.where("in"),
+                  "a calibration needs devices that stand in the world, found in=" + quote(device.attribute("in")),
+                  "take in=\"…\" out of the rig, and put it back into the rig that is written");
+      throw InputError(std::move(found));
+    }
     const auto p = numbersOf(device, "pos", 3), q = numbersOf(device, "quat", 4);
     bases_[i] = {{p[0], p[1], p[2]}, Quat(q[0], q[1], q[2], q[3]).normalized()};
   }
