@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <sstream>
 
 #include "devices/hand/finger_plant.h"
 #include "framework/core/schedule/rates.h"
@@ -53,6 +54,15 @@ std::string settleDamping(const std::string& role, const World& world, double ca
 }
 
 }  // namespace
+
+std::vector<double> settingNumbers(const DeviceBinding& binding, const std::string& key) {
+  std::vector<double> numbers;
+  const auto found = binding.settings.find(key);
+  if (found == binding.settings.end()) return numbers;
+  std::istringstream text(found->second.value);
+  for (double value; text >> value;) numbers.push_back(value);
+  return numbers;
+}
 
 double fingertipOf(const DeviceBinding& binding, const World& world) {
   for (const DeviceRole& role : world.scene.devices) {

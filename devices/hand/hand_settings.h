@@ -17,6 +17,8 @@ struct HandSettings {
 };
 /// -1 for the thumb, 1 otherwise; the setting 'side' overrides it (E404).
 double sideOf(const DeviceBinding& binding, Diagnostics& diagnostics);
+/// A setting as numbers, up to the first word that is none; empty where it is missing.
+std::vector<double> settingNumbers(const DeviceBinding& binding, const std::string& key);
 /// Fingertip radius of the role [m]; 0 when the scene has no such role.
 double fingertipOf(const DeviceBinding& binding, const World& world);
 /// Reads mass, stiffness and damping of a hand without a motion file, with defaults from `impedance`; motion stays

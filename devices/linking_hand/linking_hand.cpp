@@ -1,6 +1,5 @@
-#include <sstream>
-
 #include "devices/hand/hand_plugin.h"
+#include "devices/hand/hand_settings.h"
 #include "devices/hand/ideal_device.h"
 #include "devices/linking_hand/linked_pair.h"
 #include "framework/device/device_plugin.h"
@@ -34,26 +33,16 @@ class LinkingHand final : public Hand {
   std::size_t device_;
 };
 
-/// The setting as numbers; too few where it is missing or wrong, which the device reports.
-std::vector<double> numbersOf(const DeviceBinding& binding, const std::string& key) {
-  std::vector<double> numbers;
-  const auto found = binding.settings.find(key);
-  if (found == binding.settings.end()) return numbers;
-  std::istringstream text(found->second.value);
-  for (double value; text >> value;) numbers.push_back(value);
-  return numbers;
-}
-
 /// The settings that one role gives; the bases are those of both.
 PairSettings readPair(const std::vector<Thimble>& thimbles, std::size_t role, Diagnostics& diagnostics) {
   PairSettings pair;
   const DeviceBinding& binding = thimbles[role].binding;
   pair.link = positiveSetting(binding, "link", pair.link, diagnostics);
   pair.size = positiveSetting(binding, "size", pair.size, diagnostics);
-  const std::vector<double> seed = numbersOf(binding, "seed");
+  const std::vector<double> seed = settingNumbers(binding, "seed");
   if (!seed.empty() && seed[0] >= 0 && seed[0] < 9e15) pair.seed = static_cast<std::uint64_t>(seed[0]);
   for (std::size_t i : {0U, 1U}) {
-    const std::vector<double> p = numbersOf(thimbles[i].binding, "pos");
+    const std::vector<double> p = settingNumbers(thimbles[i].binding, "pos");
     if (p.size() == 3) pair.p_WD[i] = {p[0], p[1], p[2]};
   }
   const auto leads = binding.settings.find("leads");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "devices/hand/hand_settings.h"
 #include "devices/percro_arm/dynamics.h"
 #include "devices/percro_arm/properties.h"
 
@@ -16,15 +16,6 @@ constexpr int kLinePieces = 24;
 const Vec3 kRoomGravity_W{0, 0, -9.81};  // as the model's
 
 Quat about(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis)); }
-
-std::vector<double> numbersIn(const DeviceBinding& binding, const std::string& key) {
-  std::vector<double> numbers;
-  const auto found = binding.settings.find(key);
-  if (found == binding.settings.end()) return numbers;
-  std::istringstream text(found->second.value);
-  for (double value; text >> value;) numbers.push_back(value);
-  return numbers;
-}
 
 }  // namespace
 
@@ -97,7 +88,7 @@ std::optional<std::vector<double>> DrawnArm::heat() const {
 }
 
 std::unique_ptr<DeviceFigure> makeDrawnArm(const DeviceBinding& binding) {
-  const std::vector<double> p = numbersIn(binding, "pos"), q = numbersIn(binding, "quat");
+  const std::vector<double> p = settingNumbers(binding, "pos"), q = settingNumbers(binding, "quat");
   if (p.size() != 3 || q.size() != 4) return nullptr;
   Parameters arm = paperArm();
   if (const auto without = binding.settings.find("without"); without != binding.settings.end())

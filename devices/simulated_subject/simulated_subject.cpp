@@ -8,8 +8,9 @@
 namespace presa {
 namespace {
 
-/// All values drawn for the person and for this run.
-std::vector<DeviceFact> factsOf(const SharedSubject& subject) {
+/// All values drawn for the person and for this run, told by the first digit.
+std::vector<DeviceFact> factsOf(const SharedSubject& subject, int digit) {
+  if (digit != 0) return {};
   const SubjectSettings& settings = subject.settings();
   std::vector<DeviceFact> facts;
   for (const subject::SubjectParameter& parameter : subject::Population(settings.level).parameters())
@@ -33,7 +34,8 @@ std::string modelOf(const SharedSubject& subject) {
          ": a model, not a person";
 }
 
-std::vector<std::string> notesOf(const SharedSubject& subject) {
+std::vector<std::string> notesOf(const SharedSubject& subject, int digit) {
+  if (digit != 0) return {};
   const SubjectSettings& settings = subject.settings();
   std::array<char, 200> text;
   std::snprintf(text.data(), text.size(),
@@ -59,12 +61,8 @@ class SimulatedDigit final : public Device {
     return subject_->settings().parameters.hand_mass + subject_->settings().parameters.device_mass;
   }
   std::string model() const override { return modelOf(*subject_); }
-  std::vector<DeviceFact> facts() const override {
-    return digit_ == 0 ? factsOf(*subject_) : std::vector<DeviceFact>{};
-  }
-  std::vector<std::string> notes() const override {
-    return digit_ == 0 ? notesOf(*subject_) : std::vector<std::string>{};
-  }
+  std::vector<DeviceFact> facts() const override { return factsOf(*subject_, digit_); }
+  std::vector<std::string> notes() const override { return notesOf(*subject_, digit_); }
 
  private:
   std::shared_ptr<SharedSubject> subject_;
@@ -91,12 +89,8 @@ class WornDigit final : public Hand {
   void see(const ObjectState& objects, const Tick& tick) noexcept override { subject_->see(objects, tick); }
   std::vector<std::string> phases() const override { return phaseNames(); }
   std::string model() const override { return modelOf(*subject_); }
-  std::vector<DeviceFact> facts() const override {
-    return digit_ == 0 ? factsOf(*subject_) : std::vector<DeviceFact>{};
-  }
-  std::vector<std::string> notes() const override {
-    return digit_ == 0 ? notesOf(*subject_) : std::vector<std::string>{};
-  }
+  std::vector<DeviceFact> facts() const override { return factsOf(*subject_, digit_); }
+  std::vector<std::string> notes() const override { return notesOf(*subject_, digit_); }
 
  private:
   std::shared_ptr<SharedSubject> subject_;
