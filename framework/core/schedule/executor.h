@@ -14,6 +14,9 @@
 
 namespace presa {
 
+/// SCHED_FIFO priority of the haptic thread: above ordinary work and softirqs, below the kernel's watchdogs (99).
+inline constexpr int kHapticPriority = 80;
+
 /// Requests to a running executor, and the time it has reached. Shared by the main thread and the executor's threads.
 struct RunControl {
   std::atomic<bool> stop_requested{false};  ///< device input sees it at its next tick: forces fade
