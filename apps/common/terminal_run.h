@@ -7,7 +7,7 @@
 #include "apps/common/run_result.h"
 #include "framework/bus/parameter_server.h"
 #include "framework/core/diagnostics/diagnostics.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 #include "framework/session/run.h"
 
 namespace presa {

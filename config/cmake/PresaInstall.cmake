@@ -47,6 +47,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libjs-three) # beside the libraries: presa replay --page reads it
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, make, g++, libeigen3-dev, libboost-dev, libgtest-dev, libgmock-dev") # for authors of plug-ins
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, make, g++, libeigen3-dev, libboost-dev, libgtest-dev, libgmock-dev, python3-numpy, python3-h5py") # for authors of plug-ins, and for programs in Python
 set(CPACK_DEBIAN_COMPRESSION_TYPE zstd) # the slowest part of making the package, else
 include(CPack)

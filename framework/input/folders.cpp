@@ -1,5 +1,7 @@
 #include "framework/input/folders.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -27,10 +29,17 @@ bool liesIn(const fs::path& file, const fs::path& folder) {
   return end == folder.end() || (end->empty() && std::next(end) == folder.end());  // the last component of "a/" is ""
 }
 
-/// config and experiments above the program, as in the source tree, or below share/presa, where they are installed.
+/// Of the library with this function: also a program of somebody else, such as Python, may have loaded it.
+fs::path libraryFolder() {
+  Dl_info info{};
+  const bool known = dladdr(reinterpret_cast<void*>(&allowFolder), &info) != 0 && info.dli_fname != nullptr;
+  return known ? real(info.dli_fname).parent_path() : fs::path();
+}
+
+/// config and experiments above the library, as in the source tree, or below share/presa, where they are installed.
 std::vector<fs::path> ownFolders() {
   std::error_code error;
-  fs::path up = fs::read_symlink("/proc/self/exe", error).parent_path();
+  fs::path up = libraryFolder();
   for (int level = 0; level < 5 && up.has_relative_path(); ++level, up = up.parent_path()) {
     for (const fs::path& root : {up, up / "share/presa"}) {
       if (fs::is_directory(root / "config/schema", error) && fs::is_directory(root / "experiments", error))

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "framework/core/schedule/realtime_rights.h"
 #include "framework/session/plan.h"
+#include "framework/session/realtime_rights.h"
 
 namespace presa {
 

@@ -12,6 +12,15 @@ Run::Run(Loaded loaded, RunControl& control, Session::Options options)
 
 void Run::execute() {
   executor_->run(options().duration);
+  close();
+}
+
+void Run::finish() {
+  lockstep().finish();
+  close();
+}
+
+void Run::close() {
   poll_();
   if (Recorder* recorder = session_->recorder()) recorder->finish();
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,6 +21,10 @@ class Run {
   /// Runs RunOptions::duration, or until RunControl::stop_requested and the fade; then closes the recording. Rethrows
   /// what a module threw in start(). Call once.
   void execute();
+  /// The parts of execute() in lockstep, for a caller that acts between ticks: LockstepExecutor::begin, advance, finish.
+  void begin() { lockstep().begin(options().duration); }
+  bool advance(std::uint64_t ticks) { return lockstep().advance(ticks); }
+  void finish();
   /// `poll` is called on this thread during execute() (see Executor::onPoll) and once after the last tick.
   void onPoll(std::function<void()> poll);
 
@@ -36,6 +41,8 @@ class Run {
   std::vector<std::string> recordingFaults() const;
 
  private:
+  void close();
+
   std::unique_ptr<Session> session_;
   std::unique_ptr<Executor> executor_;
   std::function<void()> poll_ = [] {};

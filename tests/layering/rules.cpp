@@ -36,6 +36,7 @@ constexpr std::array kLibraries{
     Library{"meshoptimizer.*", "framework/geometry/mesh_decimate_plugin/"},
     Library{"CLI/.*", "apps/common/options/"},
     Library{"nlohmann/.*", "apps/"},
+    Library{"(pybind11/.*|Python\\.h)", "apps/python/"},
     Library{"boost/math/.*", "experiments/runner/statistics/"},
     Library{"(gtest|gmock|benchmark|rapidcheck)[./].*", "tests/"},
 };
@@ -83,6 +84,7 @@ const std::vector<Arrows>& arrows() {
       {"apps/temple/", {"framework/", "experiments/study/", "apps/common/"}},
       {"apps/studies/", {"framework/", "experiments/", "apps/common/"}},
       {"apps/supervisor/", {"framework/"}},
+      {"apps/python/", {"framework/"}},
       {"tests/", {"framework/", "modules/", "devices/", "experiments/", "apps/"}},
   };
   return kArrows;

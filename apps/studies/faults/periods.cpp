@@ -17,7 +17,7 @@
 #include "experiments/study/jobs.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/math/random.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 
 namespace presa::device {
 namespace {

@@ -11,7 +11,7 @@
 #include "experiments/study/experiment_file.h"
 #include "experiments/study/jobs.h"
 #include "framework/core/diagnostics/refuse.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 
 namespace presa::faults {
 namespace {

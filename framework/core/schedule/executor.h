@@ -14,6 +14,9 @@
 
 namespace presa {
 
+/// SCHED_FIFO priority of the haptic thread: above ordinary work and softirqs, below the kernel's watchdogs (99).
+inline constexpr int kHapticPriority = 80;
+
 /// Requests to a running executor, and the time it has reached. Shared by the main thread and the executor's threads.
 struct RunControl {
   std::atomic<bool> stop_requested{false};  ///< device input sees it at its next tick: forces fade
@@ -80,15 +83,23 @@ class LockstepExecutor final : public Executor {
  public:
   using Executor::Executor;
   void run(double duration) override;
+  /// The parts of run(), for a caller that acts between ticks: starts the groups for a run of `duration`; runs up to so
+  /// many haptic ticks, false once the run is over; stops the groups.
+  void begin(double duration);
+  bool advance(std::uint64_t ticks);
+  void finish();
   /// Simulates stalls, for studies. `held_up` is called whenever a group is due, with the simulated time [s]; while it
   /// returns true, the group's ticks wait; then they run at once, or are skipped after kCatchUpLimit, as in real time.
   void delay(std::function<bool(RateGroup, double)> held_up) { held_up_ = std::move(held_up); }
 
  private:
+  void stepGroups() noexcept;
   void stepDelayed(RateGroup group, std::uint64_t index, double now) noexcept;
 
   std::function<bool(RateGroup, double)> held_up_;
   std::array<std::uint64_t, kRateGroupCount> done_{};  // ticks run or given up, by group
+  std::uint64_t next_ = 0, end_ = 0;                   // haptic ticks
+  bool stopping_ = false;
 };
 
 /// Runs one thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.

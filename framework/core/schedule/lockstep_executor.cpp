@@ -8,6 +8,8 @@ namespace presa {
 namespace {
 
 constexpr std::uint64_t kPollTicks = 100;
+constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView,
+                            RateGroup::kBus};
 
 }  // namespace
 
@@ -26,34 +28,50 @@ void LockstepExecutor::stepDelayed(RateGroup group, std::uint64_t index, double 
 }
 
 void LockstepExecutor::run(double duration) {
-  static constexpr std::array kOrder{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic, RateGroup::kView,
-                                     RateGroup::kBus};
-  for (RateGroup group : kOrder) graph_.start(group);
+  begin(duration);
+  advance(end_);
+  finish();
+}
 
-  std::uint64_t end = rates_.ticksWithin(RateGroup::kHaptic, duration);
-  const std::uint64_t fade = rates_.ticksWithin(RateGroup::kHaptic, kFadeTime);
-  bool stopping = false;
+void LockstepExecutor::begin(double duration) {
+  for (RateGroup group : kOrder) graph_.start(group);
+  end_ = rates_.ticksWithin(RateGroup::kHaptic, duration);
+  next_ = 0;
+  stopping_ = false;
+  wall_seconds_ = 0;
+}
+
+bool LockstepExecutor::advance(std::uint64_t ticks) {
   const std::int64_t begin = monotonicNs();
-  for (std::uint64_t i = 0; i < end && !control_.abort.load(std::memory_order_relaxed); ++i) {
-    for (RateGroup group : kOrder) {
-      const auto divisor = static_cast<std::uint64_t>(rates_.divisor(group));
-      if (!graph_.runs(group) || i % divisor != 0) continue;
-      if (held_up_) {
-        stepDelayed(group, i / divisor, rates_.tick(RateGroup::kHaptic, i).time);
-      } else {
-        stepTimed(group, i / divisor, {});
-      }
+  const auto aborted = [this] { return control_.abort.load(std::memory_order_relaxed); };
+  for (; ticks > 0 && next_ < end_ && !aborted(); --ticks, ++next_) {
+    stepGroups();
+    control_.time.store(rates_.tick(RateGroup::kHaptic, next_ + 1).time, std::memory_order_relaxed);
+    if (!stopping_ && control_.stop_requested.load(std::memory_order_relaxed)) {
+      stopping_ = true;
+      end_ = std::min(end_, next_ + 1 + rates_.ticksWithin(RateGroup::kHaptic, kFadeTime));
     }
-    control_.time.store(rates_.tick(RateGroup::kHaptic, i + 1).time, std::memory_order_relaxed);
-    if (!stopping && control_.stop_requested.load(std::memory_order_relaxed)) {
-      stopping = true;
-      end = std::min(end, i + 1 + fade);
-    }
-    const std::int64_t leave_by = stopping ? control_.leave_by_ns.load(std::memory_order_relaxed) : RunControl::kNever;
-    if (leave_by != RunControl::kNever && monotonicNs() >= leave_by) break;
-    if (i % kPollTicks == 0) poll_();
+    const std::int64_t leave_by = stopping_ ? control_.leave_by_ns.load(std::memory_order_relaxed) : RunControl::kNever;
+    if (leave_by != RunControl::kNever && monotonicNs() >= leave_by) end_ = next_ + 1;
+    if (next_ % kPollTicks == 0) poll_();
   }
-  wall_seconds_ = static_cast<double>(monotonicNs() - begin) * 1e-9;
+  wall_seconds_ += static_cast<double>(monotonicNs() - begin) * 1e-9;
+  return next_ < end_ && !aborted();
+}
+
+void LockstepExecutor::stepGroups() noexcept {
+  for (RateGroup group : kOrder) {
+    const auto divisor = static_cast<std::uint64_t>(rates_.divisor(group));
+    if (!graph_.runs(group) || next_ % divisor != 0) continue;
+    if (held_up_) {
+      stepDelayed(group, next_ / divisor, rates_.tick(RateGroup::kHaptic, next_).time);
+    } else {
+      stepTimed(group, next_ / divisor, {});
+    }
+  }
+}
+
+void LockstepExecutor::finish() {
   for (auto group = kOrder.rbegin(); group != kOrder.rend(); ++group) graph_.stop(*group);
 }
 

@@ -15,7 +15,6 @@
 #include "framework/core/schedule/catch_up.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/core/schedule/executor.h"
-#include "framework/core/schedule/realtime_rights.h"
 
 namespace presa {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/faults/fault.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 
 namespace presa::faults {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/file_text.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 #include "tests/apps/presa/support.h"
 
 namespace presa {

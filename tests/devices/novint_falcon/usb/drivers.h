@@ -6,7 +6,7 @@
 
 #include "devices/novint_falcon/codes.h"
 #include "devices/novint_falcon/falcon_device.h"
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 #include "tests/devices/novint_falcon/usb/emulated_bus.h"
 
 /// Drivers for the tests of the emulated bus.

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "experiments/faults/press.h"
-#include "framework/core/schedule/realtime_rights.h"
 #include "framework/device/device_rating.h"
 #include "framework/device/supervision/command_keeper.h"
+#include "framework/session/realtime_rights.h"
 
 // A whole program under the real supervisor, with its probe for a device, on files that lie; then the program is
 // killed. The probe is rated for 10 N and 1 N/ms, and that is what it gets. Times are counted in the supervisor's

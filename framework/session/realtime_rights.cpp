@@ -1,4 +1,4 @@
-#include "framework/core/schedule/realtime_rights.h"
+#include "framework/session/realtime_rights.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstring>
 #include <thread>
+
+#include "framework/core/schedule/executor.h"
 
 namespace presa {
 

@@ -17,7 +17,4 @@ RealtimeRights realtimeRights();
 /// Replaces realtimeRights() in tests.
 using RealtimeProbe = std::function<RealtimeRights()>;
 
-/// SCHED_FIFO priority of the haptic thread: above ordinary work and softirqs, below the kernel's watchdogs (99).
-inline constexpr int kHapticPriority = 80;
-
 }  // namespace presa
