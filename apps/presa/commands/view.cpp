@@ -65,6 +65,10 @@ void addView(Command app, int& status) {
               "pictures for both eyes on the wall; quad: one picture where the driver has no such buffers")
       .oneOf({walls::kStereoNames.begin(), walls::kStereoNames.end()})
       .showDefault();
+  command.flag(
+      "--guide", settings->guide,
+      "guide the assembly of the run (presa run SCENE --bus-commands --guide viewer): this viewer chooses which "
+      "body\nis pulled to which goal and tells the user what to do");
   command.flag("--quiet", settings->quiet, "no status line");
   command.footer(
       "The picture is one period (5 ms) behind, interpolated. Without the bus it freezes and says so.\n"

@@ -112,7 +112,7 @@ TEST_F(BusKeys, AreNeverWrittenOverAndNobodyElseReadsThem) {
   const Said again = say({.network = ""}, {"bus", "keys", root() / "ours"});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.text, HasSubstr("error[E754]"));
-  for (const char* part : {"authority", "run", "viewer", "commander"}) {
+  for (const char* part : {"authority", "run", "viewer", "guide", "commander"}) {
     struct stat status {};
     ASSERT_EQ(stat((root() / "ours" / part / "key.pem").c_str(), &status), 0) << part;
     EXPECT_EQ(status.st_mode & 077U, 0u) << part;
