@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "apps/common/assembly_observer.h"
@@ -204,7 +205,8 @@ void TerminalRun::awaitGuide() {
   desk_->awaitGuide([this, begin = std::int64_t{0}]() mutable {
     if (begin == 0) {
       begin = monotonicNs();
-      live_->line.note("waiting for a viewer that guides: presa view --join --guide");
+      const std::string waits = "waiting for a viewer that guides: presa view --join --guide";
+      settings_.quiet ? void(std::fprintf(stderr, "%s\n", waits.c_str())) : live_->line.note(waits);
     }
     poll();
     return !control_.stop_requested && monotonicNs() - begin < kAwaitGuide;

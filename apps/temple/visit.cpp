@@ -74,6 +74,8 @@ class Visit {
     run_->execute();
     const RunResult& result = run_->result();
     for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
+    if (options_.guide == RunOptions::Guide::kViewer)
+      for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", printable(note).c_str());
     Rebuilt rebuilt = measure(assembly_, *rebuild_observer_);
     rebuilt.wall_seconds = result.wall_seconds;
     rebuilt.simulated_seconds = result.simulated_seconds;

@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kRuns = 100;            // runs take wall time
 constexpr int kTries = 20;            // attempts to start a program that presses
-constexpr double kLoss = 20e-3;       // [s]: a supervisor that was not scheduled for this long counts as a lost device
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // [s]: max wait for the force after the program resumes
 constexpr double kDetected = 6.5e-3;  // [s]: last command within a tick of the signal, held for 5 ms, then a late cycle
@@ -60,16 +59,6 @@ Sent sendSignal(pid_t process, int signal) {
   kill(process, signal);
   if (signal == SIGSTOP) waitpid(process, nullptr, WUNTRACED);
   return {before, secondsBetween(before, monotonicNs())};
-}
-
-/// Longest time between two writes of the supervisor since `begin` [s].
-double longestPause(const ProbeLog& log, std::int64_t begin) {
-  double longest = 0;
-  for (std::uint64_t i = 1; i < log.written; ++i) {
-    if (log.entries[i].time_ns < begin) continue;
-    longest = std::max(longest, secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns));
-  }
-  return longest;
 }
 
 /// Time within [begin, begin + duration] in which neither the supervisor wrote nor a witness ran [s].
@@ -135,7 +124,7 @@ Outcome onPressing(RandomStream& random, double stall, const Run& fault) {
     Outcome outcome;
     if (program.problem().empty()) {
       outcome = fault(program);
-    } else if (const double pause = longestPause(program.log(), 0); pause > kLoss) {
+    } else if (const double pause = longestPause(program.log(), 0); pause > PressingProgram::kLoss) {
       not_started.push_back(text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause));
       continue;
     } else {
@@ -183,7 +172,8 @@ void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
   }
   outcome.step = steepest(log, log.written);
   // a supervisor that was held up for long on the way back holds its device for lost
-  if (!pushes(log) && longestPause(log, resumed) <= kLoss) outcome.broken.emplace_back("the force never returned");
+  if (!pushes(log) && longestPause(log, resumed) <= PressingProgram::kLoss)
+    outcome.broken.emplace_back("the force never returned");
 }
 
 Outcome stopped(RandomStream& random, double stall) {

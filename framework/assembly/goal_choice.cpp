@@ -41,16 +41,18 @@ GoalChoice::GoalChoice(const Assembly& assembly, std::size_t bodies)
   candidates_.reserve(pairs);
 }
 
+void GoalChoice::leave(std::int32_t goal, std::int32_t body) {
+  goal_of_[placeOf(body)] = kNoGoal;
+  refused_[placeOf(body)] = goal;
+  goals_[placeOf(goal)] = {};
+}
+
 void GoalChoice::noteStanding(const std::vector<GoalState>& standing) {
   for (std::size_t g = 0; g < goals_.size(); ++g) {
     GoalState& goal = goals_[g];
     const auto place = static_cast<std::int32_t>(g);
     const bool stood = goal.status == Status::kFilled, stands = standing[g].status == Status::kFilled;
-    if (stood && (!stands || standing[g].body != goal.body)) {
-      goal_of_[placeOf(goal.body)] = kNoGoal;
-      refused_[placeOf(goal.body)] = place;
-      goal = {};
-    }
+    if (stood && (!stands || standing[g].body != goal.body)) leave(place, goal.body);
     if (!stands) continue;
     if (goal.body != kNoBody && goal.body != standing[g].body && goal_of_[placeOf(goal.body)] == place)
       goal_of_[placeOf(goal.body)] = kNoGoal;

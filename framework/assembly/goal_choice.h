@@ -16,9 +16,11 @@ class GoalChoice {
  public:
   GoalChoice(const Assembly& assembly, std::size_t bodies);
 
-  /// `standing`: the state of each goal in the run, of which only filled goals count. A body that was taken out of its
-  /// goal since the last step is not pulled to that goal again before it has been out of reach.
+  /// `standing`: the state of each goal in the run, of which only filled goals count. A body that no longer stands where
+  /// it stood in the last step is left alone as after leave().
   void step(const ObjectState& objects, const std::vector<GoalState>& standing);
+  /// The body is not pulled to that goal again before it has been out of reach.
+  void leave(std::int32_t goal, std::int32_t body);
   /// By goal: filled as in `standing`, else open, blocked, or the body to be pulled.
   const std::vector<GoalState>& goals() const noexcept { return goals_; }
 

@@ -84,7 +84,7 @@ void GoalPulls::settle(const ObjectState& objects, double period) {
 }
 
 void GoalPulls::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights,
-                                    double speed) {
+                                  double speed) {
   snap_constraints_.bodies.push_back({.body = static_cast<std::int32_t>(body),
                                       .fixed = fixed,
                                       .turns = turns,
@@ -153,15 +153,16 @@ void GoalPulls::step(const ObjectState& objects, const std::vector<GoalState>& c
   slowDown(objects);
 }
 
-void GoalPulls::undo() {
-  if (order_.empty()) return;
+GoalPulls::Released GoalPulls::undo() {
+  if (order_.empty()) return {};
   const std::size_t last = order_.back();
   order_.pop_back();
-  GoalState& goal = state_.goals[last];
-  goal = {};
+  const Released released{static_cast<std::int32_t>(last), state_.goals[last].body};
+  state_.goals[last] = {};
   pull_time_[last] = settled_[last] = 0;
   --state_.filled;
   state_.last_filled = order_.empty() ? kNoGoal : static_cast<std::int32_t>(order_.back());
+  return released;
 }
 
 }  // namespace presa

@@ -19,8 +19,11 @@ class GoalPulls {
   /// `chosen`: by goal, the body to be pulled (kDrawing), or none; entries of filled goals do not count. `period`: time
   /// since the last step [s].
   void step(const ObjectState& objects, const std::vector<GoalState>& chosen, double period);
-  /// Releases the last placed body.
-  void undo();
+  /// Releases the last placed body; returns its goal, as it was.
+  struct Released {
+    std::int32_t goal = kNoGoal, body = kNoBody;
+  };
+  Released undo();
 
   const AssemblyState& state() const noexcept { return state_; }
   const SnapConstraints& snapConstraints() const noexcept { return snap_constraints_; }

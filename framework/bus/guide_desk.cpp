@@ -112,7 +112,11 @@ void GuideDesk::read(const Stamp& stamp, const AssemblyState& assembly) {
   for (const GuideOrder& order : post_->take()) {
     if (order.run != run_ || order.guide == 0) continue;
     if (order.guide == led_ && order.number <= number_) continue;  // a repetition, or one that came late
-    const OrderRefusal refusal = ++read > kMostAtOnce ? OrderRefusal::kTooMany : judge(order, stamp);
+    // a flood of others does not use up what the guide may send
+    const bool other = lead_ != 0 && order.guide != lead_;
+    const OrderRefusal refusal = other                  ? OrderRefusal::kOtherGuide
+                                 : ++read > kMostAtOnce ? OrderRefusal::kTooMany
+                                                        : judge(order, stamp);
     if (refusal == OrderRefusal::kNone)
       obey(order, stamp, assembly);
     else
@@ -122,7 +126,6 @@ void GuideDesk::read(const Stamp& stamp, const AssemblyState& assembly) {
 
 OrderRefusal GuideDesk::judge(const GuideOrder& order, const Stamp& stamp) const {
   const auto& goals = scene_.assembly->goals;
-  if (lead_ != 0 && order.guide != lead_) return OrderRefusal::kOtherGuide;
   if (order.guide == led_ && order.number > number_ && order.number - number_ > kFarthest)
     return OrderRefusal::kOutOfOrder;
   if (order.on > stamp.sequence || order.undone > orders_.undone + 1) return OrderRefusal::kOutOfOrder;
@@ -162,6 +165,7 @@ void GuideDesk::obey(const GuideOrder& order, const Stamp& stamp, const Assembly
 void GuideDesk::follow(const GuideOrder& order, const Stamp& stamp) {
   lead_ = order.guide;
   if (led_ != lead_) told_ = 0;
+  noted_ = {};
   led_ = lead_;
   note(stamp.time, takeovers_++ == 0 ? "a viewer guides the assembly" : "a viewer has taken over the guide");
 }
@@ -182,9 +186,9 @@ void GuideDesk::hear(const GuideOrder& order) {
 
 void GuideDesk::refuse(const GuideOrder& order, OrderRefusal refusal, double time) {
   ++refused_;
-  const bool known = std::exchange(refusal_, refusal) == refusal && refused_guide_ == order.guide;
+  refusal_ = refusal;
   refused_guide_ = order.guide;
-  if (known) return;
+  if (std::exchange(noted_[static_cast<std::size_t>(refusal)], true)) return;
   note(time, refusal == OrderRefusal::kOtherGuide
                  ? std::string("a second guide was refused")
                  : std::string("an order of a guide was refused: ") + toString(refusal));

@@ -25,7 +25,7 @@ class GuideDesk {
   using Open = std::function<std::unique_ptr<OrderPost>()>;
   static constexpr double kSilence = 0.5;         ///< time without orders after which a guide no longer leads [s]
   static constexpr std::uint64_t kOldest = 40;    ///< age of the states that an order may decide on [publications]
-  static constexpr std::size_t kMostAtOnce = 32;  ///< orders read at one publication
+  static constexpr std::size_t kMostAtOnce = 32;  ///< orders of the guide read at one publication
   static constexpr double kUndoEvery = 0.2;       ///< shortest time between two undos [simulated s]
 
   GuideDesk(const Scene& scene, bool realtime, Open open);
@@ -76,6 +76,7 @@ class GuideDesk {
   int takeovers_ = 0, silences_ = 0;
   OrderRefusal refusal_ = OrderRefusal::kNone;
   std::uint64_t refused_guide_ = 0;
+  std::array<bool, static_cast<std::size_t>(OrderRefusal::kTooMany) + 1> noted_{};  // since the guide leads
   GuideOrders orders_;
   GuideReport report_;
   std::mutex mutex_;

@@ -16,7 +16,10 @@ class GoalRegions {
     pulls_.step(objects, choice_.goals(), period);
   }
   /// Releases the last placed body; it is not pulled to that goal again before it has been out of reach.
-  void undo() { pulls_.undo(); }
+  void undo() {
+    const GoalPulls::Released released = pulls_.undo();
+    if (released.goal != kNoGoal) choice_.leave(released.goal, released.body);
+  }
 
   const AssemblyState& state() const noexcept { return pulls_.state(); }
   const SnapConstraints& snapConstraints() const noexcept { return pulls_.snapConstraints(); }

@@ -75,6 +75,8 @@ void addView(Command app, int& status) {
       "Exit status: 0 shown, 1 it could not be drawn, 2 bad input or another scene, 3 no run within --wait, 130 "
       "Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --bus loopback &  presa view --join --view window\n"
+      "A guide at the screen:  presa temple --bus loopback --bus-commands --guide viewer, and here  presa view --join "
+      "--guide\n"
       "A CAVE, a process for each wall and one for the head:  presa view --join --walls config/cave/cave.xml --wall "
       "front\n"
       "                                 presa view --join --walls config/cave/cave.xml --head config/cave/head.xml");

@@ -59,8 +59,8 @@ TEST(GuideInViewer, RebuildsTheFirstTaskAsTheRunsOwnGuide) {
   ViewerProcess run(with({"--session", folder + "/viewer", "--summary", folder + "/viewer.json", "--bus-commands",
                           "--guide", "viewer"}),
                     bus);
-  ViewerProcess viewer({"view", "--join", folder + "/scene/scene.xml", "--guide", "--view", "none", "--wait", "30"},
-                       bus);
+  ViewerProcess viewer(
+      {"view", "--join", "--guide", "--meshes", folder + "/scene/meshes", "--view", "none", "--wait", "30"}, bus);
   const std::string run_said = run.rest(), viewer_said = viewer.rest();
   EXPECT_EQ(run.end(), 0) << run_said;
   EXPECT_EQ(viewer.end(), 0) << viewer_said;

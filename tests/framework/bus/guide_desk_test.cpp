@@ -12,7 +12,7 @@
 namespace presa::bus {
 namespace {
 
-constexpr std::uint64_t kRun = 7, kGuide = 11, kOther = 12;
+constexpr std::uint64_t kGuidedRun = 7, kGuide = 11, kOther = 12;
 constexpr std::int32_t kDrumA = 0, kDrumB = 1, kCapital = 2, kGround = 3;
 
 /// Two drums, either of which fits the first goal, and a capital for the second.
@@ -26,19 +26,19 @@ class GuideDeskTest : public testing::Test {
     scene_.assembly = assembly;
     state_.goals.resize(2);
     desk_ = std::make_unique<GuideDesk>(scene_, true, [this] { return bus_.orderPost(); });
-    desk_->start(kRun);
+    desk_->start(kGuidedRun);
     sender_ = bus_.orderSender();
   }
 
   /// One publication, 5 ms after the last.
   void publish() {
-    const Stamp stamp{kRun, ++sequence_, 0.005 * static_cast<double>(sequence_), monotonicNs()};
+    const Stamp stamp{kGuidedRun, ++sequence_, 0.005 * static_cast<double>(sequence_), monotonicNs()};
     desk_->show(stamp, state_);
     desk_->serve(stamp, state_);
     for (GuideStatus& status : sender_->take()) status_ = std::move(status);
   }
   GuideOrder order(std::int32_t first = kNoBody, std::int32_t second = kNoBody) {
-    GuideOrder order{kRun, kGuide, ++number_, sequence_};
+    GuideOrder order{kGuidedRun, kGuide, ++number_, sequence_};
     order.undone = status_.undone;
     order.draws = {first, second};
     return order;
@@ -84,7 +84,7 @@ TEST_F(GuideDeskTest, FollowsTheFirstGuideAndTellsTheSecond) {
 TEST_F(GuideDeskTest, AnOrderOfAnotherRunIsNotHeard) {
   publish();
   GuideOrder wrong = order(kDrumA);
-  wrong.run = kRun + 1;
+  wrong.run = kGuidedRun + 1;
   EXPECT_EQ(answerTo(wrong), OrderRefusal::kNone);
   EXPECT_EQ(status_.lead, 0u);
   EXPECT_EQ(ordered(0), kNoBody);
@@ -139,10 +139,13 @@ TEST_F(GuideDeskTest, AFloodIsCutOff) {
     sender_->send(forged);
   }
   EXPECT_EQ(answerTo(order(kDrumB)), OrderRefusal::kNone);
-  EXPECT_EQ(status_.refusal, OrderRefusal::kTooMany);
+  EXPECT_EQ(status_.refusal, OrderRefusal::kOtherGuide);
   EXPECT_EQ(status_.lead, kGuide);
-  answerTo(order(kDrumB));
   EXPECT_EQ(ordered(0), kDrumB);
+  EXPECT_EQ(notesAbout("refused"), 1u);
+  for (std::size_t i = 0; i < 2 * GuideDesk::kMostAtOnce; ++i) sender_->send(order(kDrumA));
+  EXPECT_EQ(answerTo(order(kDrumB)), OrderRefusal::kTooMany) << "in the name of the guide";
+  EXPECT_EQ(status_.lead, kGuide);
 }
 
 TEST_F(GuideDeskTest, UndoesOnceAndNotTooFast) {

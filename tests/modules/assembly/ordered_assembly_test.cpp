@@ -12,7 +12,7 @@ namespace {
 
 using Status = GoalState::Status;
 
-constexpr double kPeriod = 0.01;
+constexpr double kTick = 0.01;
 
 class States final : public Module {
  public:
@@ -64,7 +64,7 @@ class OrderedAssemblyTest : public testing::Test {
   void step(int steps = 1) {
     for (int i = 0; i < steps; ++i) {
       graph_.step(RateGroup::kCollision,
-                  {.index = index_, .time = kPeriod * static_cast<double>(index_), .period = kPeriod});
+                  {.index = index_, .time = kTick * static_cast<double>(index_), .period = kTick});
       ++index_;
     }
   }
@@ -98,7 +98,7 @@ TEST_F(OrderedAssemblyTest, RisesAsTheRunsOwnPull) {
   EXPECT_EQ(pull(), 0);
   for (int i = 0; i < 60; ++i) {
     step();
-    own.step(states_->objects.value, kPeriod);
+    own.step(states_->objects.value, kTick);
     ASSERT_EQ(pull(), own.snapConstraints().bodies.front().max_acceleration) << i;
     ASSERT_EQ(seen_->pulls->bodies.front().X_WB.p, own.snapConstraints().bodies.front().X_WB.p);
   }
@@ -121,11 +121,11 @@ TEST_F(OrderedAssemblyTest, NoOrderMakesAJump) {
   for (int i = 0; i < 400; ++i) {
     if (i % 7 == 0) order(0, i % 2);
     step();
-    EXPECT_LE(pull() - last, 1.5 * 9.81 * kPeriod / GoalPulls::kRise + 1e-12) << i;
+    EXPECT_LE(pull() - last, 1.5 * 9.81 * kTick / GoalPulls::kRise + 1e-12) << i;
     EXPECT_LE(seen_->pulls->bodies.size(), 1u);
     last = pull();
   }
-  EXPECT_LT(last, 1.5 * 9.81 * 8 * kPeriod / GoalPulls::kRise) << "a pull that is always new stays small";
+  EXPECT_LT(last, 1.5 * 9.81 * 8 * kTick / GoalPulls::kRise) << "a pull that is always new stays small";
 }
 
 // Without a further order, as from a guide that has died, the pull ends as the run's own one.
@@ -135,7 +135,7 @@ TEST_F(OrderedAssemblyTest, APullInProgressEndsWithoutTheGuide) {
   step(10);
   EXPECT_EQ(status(0), Status::kDrawing);
   at(0, Vec3::Zero());
-  step(static_cast<int>(GoalPulls::kSettle / kPeriod) + 2);
+  step(static_cast<int>(GoalPulls::kSettle / kTick) + 2);
   EXPECT_EQ(status(0), Status::kFilled);
   EXPECT_TRUE(seen_->pulls->bodies.front().fixed);
 
