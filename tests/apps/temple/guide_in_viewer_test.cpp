@@ -1,7 +1,6 @@
 // The temple with its guide in a viewer: two processes over DDS, beside one with its own guide.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -71,10 +70,14 @@ TEST(GuideInViewer, RebuildsTheFirstTaskAsTheRunsOwnGuide) {
   EXPECT_EQ(own_start.at("guide"), "beside");
   EXPECT_EQ(viewer_start.at("guide"), "viewer");
   ASSERT_EQ(remote.size(), beside.size()) << run_said << viewer_said;
+  // the guide looks at 60 Hz beside the dynamics, at each publication (5 ms) in the viewer; a decision waits for the next
+  // collision tick (10 ms), the pull rests for one (10 ms), and the hands go on from each block placed
+  constexpr double kEach = 1.0 / 60 + 0.005 + 0.01 + 0.01;
+  int placed = 0;
   for (std::size_t i = 0; i < beside.size(); ++i) {
+    placed += beside[i].what.starts_with("placed") ? 1 : 0;
     EXPECT_EQ(remote[i].what, beside[i].what) << i;
-    std::printf("%-28s %8.3f s beside, %8.3f s in the viewer\n", beside[i].what.c_str(), beside[i].time,
-                remote[i].time);
+    EXPECT_NEAR(remote[i].time, beside[i].time, kEach * (1 + placed)) << beside[i].what;
   }
   const json here = summaryOf(folder + "/own.json"), there = summaryOf(folder + "/viewer.json");
   EXPECT_EQ(there.at("placed"), 3);
