@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "experiments/faults/fault.h"
@@ -113,25 +114,37 @@ void excuse(const ProbeLog& log, const Witness& witness, const Sent& sent, const
       1e3 * outcome.detection, 1e3 * outcome.zero, 1e3 * (outcome.held_up_zero - sent.took), 1e3 * sent.took);
 }
 
-/// Runs `fault` on a program that presses. The program is a child of this one in half of the runs, and `presa` itself in
-/// the others.
+/// Whether the finger pressed when the signal came. On a machine that holds up a thread of the program the output stage
+/// may have taken the force away just before: then there is no grasp to fail.
+bool pressedAt(const ProbeLog& log, std::int64_t at_ns) {
+  double force = 0;
+  for (std::uint64_t i = 0; i < log.written && log.entries[i].time_ns < at_ns; ++i) force = log.entries[i].force;
+  return force >= 0.95 * PressingProgram::kForce;
+}
+
+/// Runs `fault` on a program that presses; none if it pressed no more when the fault came. The program is a child of this
+/// one in half of the runs, and `presa` itself in the others. A program that does not press is started again: nothing
+/// of it is judged here, and the report lists it.
 template <class Run>
 Outcome onPressing(RandomStream& random, double stall, const Run& fault) {
   const bool presa = random.uniform(0, 1) < 0.5;
   std::vector<std::string> not_started;
   for (int i = 0; i < kTries; ++i) {
     PressingProgram program({.stall = stall, .presa = presa});
-    Outcome outcome;
-    if (program.problem().empty()) {
-      outcome = fault(program);
-    } else if (const double pause = longestPause(program.log(), 0); pause > PressingProgram::kLoss) {
-      not_started.push_back(text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause));
+    if (!program.problem().empty()) {
+      const double pause = longestPause(program.log(), 0);
+      not_started.push_back(pause > PressingProgram::kLoss
+                                ? text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause)
+                                : program.problem());
       continue;
-    } else {
-      outcome.broken.push_back(program.problem());
     }
-    outcome.not_started = std::move(not_started);
-    return outcome;
+    std::optional<Outcome> outcome = fault(program);
+    if (!outcome) {
+      not_started.emplace_back("the program had let go before the fault");
+      continue;
+    }
+    outcome->not_started = std::move(not_started);
+    return *outcome;
   }
   Outcome outcome;
   outcome.broken.push_back("the program did not press in 20 tries; the last: " + not_started.back());
@@ -144,12 +157,13 @@ constexpr Bounds kKilled{kDetected, 0.020, false};
 constexpr Bounds kStopped{kDetected, kDetected + 0.004 + 2 * 0.25e-3, false};
 
 Outcome killed(RandomStream& random, double stall) {
-  return onPressing(random, stall, [&](PressingProgram& program) {
+  return onPressing(random, stall, [&](PressingProgram& program) -> std::optional<Outcome> {
     Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGKILL);
     const bool released = program.isReleased();
     witness.stop();
+    if (!pressedAt(program.log(), sent.at_ns)) return std::nullopt;
     Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
     excuse(program.log(), witness, sent, kKilled, outcome);
     if (!released) outcome.broken.emplace_back("the supervisor did not end");
@@ -177,12 +191,13 @@ void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
 }
 
 Outcome stopped(RandomStream& random, double stall) {
-  return onPressing(random, stall, [&](PressingProgram& program) {
+  return onPressing(random, stall, [&](PressingProgram& program) -> std::optional<Outcome> {
     Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGSTOP);
     sleepFor(random.uniform(0.03, 0.3));
     witness.stop();
+    if (!pressedAt(program.log(), sent.at_ns)) return std::nullopt;
     const std::uint64_t end = program.log().written;
     const std::int64_t resumed = monotonicNs();
     kill(program.pid(), SIGCONT);
