@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "apps/common/assembly_observer.h"
@@ -69,6 +70,8 @@ std::vector<RunResult::Phase> phasesOf(const Device& device) {
     phases.push_back({names[p], times[p], times[p + 1], p < intents.size() ? intents[p] : PhaseIntent::kNone});
   return phases;
 }
+
+constexpr std::int64_t kAwaitGuide = 60'000'000'000;  // longest wait for a guide in a viewer, in lockstep [ns]
 
 constexpr double kMaxJointSamples = 1'000'000;  // of all joints of a run, for plots
 
@@ -172,6 +175,7 @@ void TerminalRun::offerToView() {
 void TerminalRun::offerToCommands() {
   auto* commandable = dynamic_cast<bus::Commandable*>(run_->session().graph().find("bus_dds"));
   server_ = commandable != nullptr ? commandable->parameterServer() : nullptr;
+  awaitGuide();
   if (server_ == nullptr) return;
   const auto always = [](double value) { return [value] { return value; }; };
   if (paced_) {
@@ -190,6 +194,30 @@ void TerminalRun::offerToCommands() {
                       ++undone_;
                       assembly->undo();
                     }});
+  }
+}
+
+// In lockstep nobody's time passes, so the run begins with its guide.
+void TerminalRun::awaitGuide() {
+  auto* guidable = dynamic_cast<bus::Guidable*>(run_->session().graph().find("bus_dds"));
+  desk_ = guidable != nullptr ? guidable->guideDesk() : nullptr;
+  if (desk_ == nullptr || run_->options().realtime) return;
+  desk_->awaitGuide([this, begin = std::int64_t{0}]() mutable {
+    if (begin == 0) {
+      begin = monotonicNs();
+      const std::string waits = "waiting for a viewer that guides: presa view --join --guide";
+      settings_.quiet ? void(std::fprintf(stderr, "%s\n", waits.c_str())) : live_->line.note(waits);
+    }
+    poll();
+    return !control_.stop_requested && monotonicNs() - begin < kAwaitGuide;
+  });
+}
+
+void TerminalRun::noteGuide() {
+  if (desk_ == nullptr) return;
+  for (const std::string& note : desk_->takeNotes()) {
+    live_->line.note(note);
+    result_.notes.push_back(note);
   }
 }
 
@@ -243,6 +271,7 @@ void TerminalRun::poll() {
   if (run_->session().view() != nullptr && run_->session().view()->wantsStop()) control_.stop_requested = true;
   noteObjectFaults();
   noteFrames();
+  noteGuide();
   const char key = live_->keys ? live_->keys->next(0) : '\0';
   if (key == 'r') rearm();
   if (settings_.watch && !settings_.watch(run_->session(), key)) control_.stop_requested = true;
@@ -343,6 +372,8 @@ void TerminalRun::finish() {
     result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kMaxReportedTrips) + " more of these");
   }
   noteCommands();
+  noteGuide();
+  if (desk_ != nullptr) result_.notes.push_back(desk_->summary());
   result_.world = run_->session().world();
   result_.version = kVersion;
   result_.command = settings_.command;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/common/run_result.h"
+#include "framework/bus/guide_desk.h"
 #include "framework/bus/parameter_server.h"
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/session/realtime_rights.h"
@@ -51,6 +52,8 @@ class TerminalRun {
   void rearm();
   void offerToCommands();
   void noteCommands();
+  void noteGuide();
+  void awaitGuide();
 
   std::vector<std::unique_ptr<Module>> observers(const Loaded& loaded);
   void offerToView();
@@ -62,6 +65,7 @@ class TerminalRun {
   View* view_ = nullptr;
   bus::ParameterServer* server_ = nullptr;  // receives commands from the bus; null: none
   std::function<void(double)> while_held_;  // lockstep: reads commands while the run is paused
+  bus::GuideDesk* desk_ = nullptr;          // receives orders of a guide in a viewer; null: none
   double undone_ = 0;                       // number of undos by commands
   struct Live;
   std::unique_ptr<Live> live_;

@@ -8,6 +8,7 @@
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/exit_status.h"
+#include "apps/common/options/bus_options.h"
 #include "apps/common/options/command_line.h"
 #include "apps/common/options/view_options.h"
 #include "apps/common/scratch_folder.h"
@@ -39,6 +40,7 @@ struct Arguments {
                                                                                sound_file;
   std::vector<std::string> show;  // as in RunOptions
   PictureArguments asked;
+  RunOptions bus;                        // only what concerns the bus
   std::string visits;                    // folder of saved visits; empty: the default
   std::string counts;                    // file of counted visits; empty: the default
   std::string kept;                      // session to continue
@@ -191,6 +193,9 @@ RunOptions optionsOf(const temple::Building& building, const Arguments& a, Diagn
   options.realtime = a.realtime();
   options.allow_no_rt = a.allow_no_rt;
   options.bound_stiffness = !a.automatic;
+  options.bus = a.bus.bus;
+  options.bus_commands = a.bus.bus_commands;
+  options.guide = a.bus.guide;
   options.view = viewOf(a);
   options.screenshot = a.screenshot;
   options.video = a.video;
@@ -227,6 +232,7 @@ temple::VisitEnd runVisit(const temple::Building& building, temple::SceneSpec sp
   Diagnostics diagnostics;
   Loaded loaded = loadWorld({temple::writeScene(building, spec, scratch.path().string()), "", {}},
                             optionsOf(building, a, diagnostics), diagnostics);
+  checkBusCommands(a.bus.bus_commands, loaded.options, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
 
@@ -447,6 +453,9 @@ void addTemple(Command app, int& status) {
       .option("--view", a->view,
               "window, offscreen or none (default: window against the clock, where there is a display)")
       .oneOf({"window", "offscreen", "none"});
+  addBusOptions(command, a->bus.bus, "publish the visit for presa view --join");
+  addBusCommandsOption(command, a->bus.bus_commands);
+  addGuideOption(command, a->bus);
   command.flag("--allow-no-rt", a->allow_no_rt,
                "let hardware run where the system refuses real-time scheduling: with half the force");
   command

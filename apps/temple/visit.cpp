@@ -30,6 +30,11 @@ constexpr double kShownFinish = 10;  // pause after the hands have finished, bef
 // after completion: until the next task is offered, until it begins, and since the last touch at the least [s]
 constexpr double kOffered = 12, kOnward = 60, kOnwardUntouched = 30;
 
+/// Where the guide runs, for the log.
+const char* guideOf(const RunOptions& options) {
+  return options.guide == RunOptions::Guide::kViewer ? "viewer" : "beside";
+}
+
 class Visit {
  public:
   Visit(Loaded loaded, const VisitSettings& settings)
@@ -61,13 +66,16 @@ class Visit {
     run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
     if (settings.sound) loudspeaker_ = std::make_unique<Loudspeaker>();
     if (settings.voice) voice_.emplace(settings.language);
-    if (!settings.folder.empty()) log_.emplace(settings.folder, settings.start, world_->scene, settings.language);
+    if (!settings.folder.empty())
+      log_.emplace(settings.folder, settings.start, world_->scene, settings.language, guideOf(options_));
   }
 
   VisitEnd go() {
     run_->execute();
     const RunResult& result = run_->result();
     for (const auto& fault : result.faults) std::fprintf(stderr, "%s\n", printable(fault.text).c_str());
+    if (options_.guide == RunOptions::Guide::kViewer)
+      for (const std::string& note : result.notes) std::fprintf(stderr, "%s\n", printable(note).c_str());
     Rebuilt rebuilt = measure(assembly_, *rebuild_observer_);
     rebuilt.wall_seconds = result.wall_seconds;
     rebuilt.simulated_seconds = result.simulated_seconds;
@@ -189,8 +197,11 @@ class Visit {
 
   void undo(Session& session, char key) {
     const std::uint32_t wanted = session.view() != nullptr ? session.view()->undosWanted() : 0;
-    for (; undone_ != wanted; ++undone_) session.assembly()->undo();
-    if (key == 'u') session.assembly()->undo();
+    const std::uint32_t asked = std::exchange(undone_, wanted);
+    AssemblyControl* const assembly = session.assembly();
+    if (assembly == nullptr) return;  // the guide is in a viewer, and so is the key
+    for (std::uint32_t n = asked; n != wanted; ++n) assembly->undo();
+    if (key == 'u') assembly->undo();
   }
 
   const VisitSettings& settings_;

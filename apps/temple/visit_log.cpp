@@ -37,7 +37,8 @@ double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
 
 }  // namespace
 
-VisitLog::VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language)
+VisitLog::VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language,
+                   const std::string& guide)
     : scene_(scene), file_(sessionFile(folder)), kept_(std::move(base)) {
   std::filesystem::create_directories(folder);
   removeHalfWritten(folder);
@@ -48,6 +49,7 @@ VisitLog::VisitLog(const std::string& folder, KeptSession base, const Scene& sce
              {"size", kept_.size},
              {"seed", kept_.seed},
              {"language", language},
+             {"guide", guide},
              {"placed", kept_.placed},
              {"spent_s", rounded(kept_.elapsed)}}
             .dump());

@@ -13,8 +13,10 @@ namespace presa::temple {
 /// after every block that is placed or taken out. Neither holds personal data. Thread: main.
 class VisitLog {
  public:
-  /// Creates the folder. `base`: initial state of the visit. Throws std::system_error.
-  VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language);
+  /// Creates the folder. `base`: initial state of the visit; `guide`: where the guide runs, "beside" the dynamics or in a
+  /// "viewer". Throws std::system_error.
+  VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language,
+           const std::string& guide);
 
   void note(const std::vector<GuideEvent>& events, const VisitObserver::Snapshot& snapshot);
   /// How strong the help with grasping is from now on, and how much of it the last block needed.

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,7 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kPatience = 5;  // [s]
+constexpr double kStartPatience = 60, kPatience = 5;  // for the first write, and from it until the finger presses [s]
 
 /// Creates the shared log and returns its path /proc/PID/fd/N, which the program under test opens.
 std::string makeLog(ProbeLog*& log) {
@@ -116,18 +117,36 @@ PressingProgram::~PressingProgram() {
   ::close(std::stoi(file_.substr(file_.rfind('/') + 1)));
 }
 
+double longestPause(const ProbeLog& log, std::int64_t begin_ns) {
+  const std::uint64_t written = log.written.load(std::memory_order_acquire);
+  std::int64_t longest = 0;
+  for (std::uint64_t i = 1; i < written; ++i) {
+    if (log.entries[i].time_ns >= begin_ns)
+      longest = std::max(longest, log.entries[i].time_ns - log.entries[i - 1].time_ns);
+  }
+  return static_cast<double>(longest) * 1e-9;
+}
+
 std::string PressingProgram::waitUntilPressed() {
   double force = 0;
-  for (const std::int64_t begin = monotonicNs(); static_cast<double>(monotonicNs() - begin) * 1e-9 < kPatience; nap()) {
-    const std::uint64_t written = log_->written.load(std::memory_order_acquire);
+  std::uint64_t written = 0;
+  const std::int64_t begin = monotonicNs();
+  const auto isPatient = [&] {
+    const std::int64_t since = written > 0 ? log_->entries[0].time_ns : begin;
+    return static_cast<double>(monotonicNs() - since) * 1e-9 < (written > 0 ? kPatience : kStartPatience);
+  };
+  for (; isPatient(); nap()) {
+    written = log_->written.load(std::memory_order_acquire);
     force = written > 0 ? log_->entries[written - 1].force : 0;
     if (force > 0.99 * kForce) return {};
+    if (longestPause(*log_, 0) > kLoss) return "the supervisor was held up before the finger pressed";
     if (int status = 0; waitpid(program_, &status, WNOHANG) != 0) {
       return "the program ended by itself, " + (WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                                                                     : "status " + std::to_string(WEXITSTATUS(status)));
     }
   }
-  return "the program does not press its finger: " + std::to_string(force) + " N after five seconds";
+  return "the program does not press its finger: " + std::to_string(force) + " N " +
+         (written > 0 ? "five seconds after the first write" : "in a minute, without a write");
 }
 
 bool PressingProgram::isReleased() const {

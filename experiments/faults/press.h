@@ -20,7 +20,9 @@ class PressingProgram {
     double stall = 0;    ///< the supervisor is late with its first lower force by that time [s]
     bool presa = false;  ///< run `presa` beside this program instead of a fork of this one; needs no limits
   };
-  /// Starts the program and waits until the finger presses, at most five seconds.
+  /// Starts the program and waits until the finger presses: a minute for the first write, because a busy machine starts
+  /// programs slowly, and five seconds from it on. Ends at once when the supervisor was held up for kLoss: it holds its
+  /// device for lost then, and never presses.
   PressingProgram() : PressingProgram(Limits()) {}
   explicit PressingProgram(const Limits& limits);
   ~PressingProgram();
@@ -34,7 +36,8 @@ class PressingProgram {
   /// Waits at most two seconds for the supervisor to release the device and end; false: it did not.
   bool isReleased() const;
 
-  static constexpr double kForce = 4;  // [N]
+  static constexpr double kForce = 4;     // [N]
+  static constexpr double kLoss = 20e-3;  ///< a supervisor that was not scheduled for this long loses its device [s]
 
  private:
   std::string waitUntilPressed();
@@ -45,5 +48,8 @@ class PressingProgram {
   pid_t program_ = -1;
   std::string problem_;
 };
+
+/// Longest time between two writes of the supervisor since `begin_ns` [s].
+double longestPause(const ProbeLog& log, std::int64_t begin_ns);
 
 }  // namespace presa::faults

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "experiments/faults/fault.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr int kRuns = 100;            // runs take wall time
 constexpr int kTries = 20;            // attempts to start a program that presses
-constexpr double kLoss = 20e-3;       // [s]: a supervisor that was not scheduled for this long counts as a lost device
 constexpr double kSoftStart = 0.5;    // [s]
 constexpr double kReturn = 2;         // [s]: max wait for the force after the program resumes
 constexpr double kDetected = 6.5e-3;  // [s]: last command within a tick of the signal, held for 5 ms, then a late cycle
@@ -60,16 +60,6 @@ Sent sendSignal(pid_t process, int signal) {
   kill(process, signal);
   if (signal == SIGSTOP) waitpid(process, nullptr, WUNTRACED);
   return {before, secondsBetween(before, monotonicNs())};
-}
-
-/// Longest time between two writes of the supervisor since `begin` [s].
-double longestPause(const ProbeLog& log, std::int64_t begin) {
-  double longest = 0;
-  for (std::uint64_t i = 1; i < log.written; ++i) {
-    if (log.entries[i].time_ns < begin) continue;
-    longest = std::max(longest, secondsBetween(log.entries[i - 1].time_ns, log.entries[i].time_ns));
-  }
-  return longest;
 }
 
 /// Time within [begin, begin + duration] in which neither the supervisor wrote nor a witness ran [s].
@@ -124,25 +114,37 @@ void excuse(const ProbeLog& log, const Witness& witness, const Sent& sent, const
       1e3 * outcome.detection, 1e3 * outcome.zero, 1e3 * (outcome.held_up_zero - sent.took), 1e3 * sent.took);
 }
 
-/// Runs `fault` on a program that presses. The program is a child of this one in half of the runs, and `presa` itself in
-/// the others.
+/// Whether the finger pressed when the signal came. On a machine that holds up a thread of the program the output stage
+/// may have taken the force away just before: then there is no grasp to fail.
+bool pressedAt(const ProbeLog& log, std::int64_t at_ns) {
+  double force = 0;
+  for (std::uint64_t i = 0; i < log.written && log.entries[i].time_ns < at_ns; ++i) force = log.entries[i].force;
+  return force >= 0.95 * PressingProgram::kForce;
+}
+
+/// Runs `fault` on a program that presses; none if it pressed no more when the fault came. The program is a child of this
+/// one in half of the runs, and `presa` itself in the others. A program that does not press is started again: nothing
+/// of it is judged here, and the report lists it.
 template <class Run>
 Outcome onPressing(RandomStream& random, double stall, const Run& fault) {
   const bool presa = random.uniform(0, 1) < 0.5;
   std::vector<std::string> not_started;
   for (int i = 0; i < kTries; ++i) {
     PressingProgram program({.stall = stall, .presa = presa});
-    Outcome outcome;
-    if (program.problem().empty()) {
-      outcome = fault(program);
-    } else if (const double pause = longestPause(program.log(), 0); pause > kLoss) {
-      not_started.push_back(text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause));
+    if (!program.problem().empty()) {
+      const double pause = longestPause(program.log(), 0);
+      not_started.push_back(pause > PressingProgram::kLoss
+                                ? text("the machine held up the supervisor for %.1f ms before the fault", 1e3 * pause)
+                                : program.problem());
       continue;
-    } else {
-      outcome.broken.push_back(program.problem());
     }
-    outcome.not_started = std::move(not_started);
-    return outcome;
+    std::optional<Outcome> outcome = fault(program);
+    if (!outcome) {
+      not_started.emplace_back("the program had let go before the fault");
+      continue;
+    }
+    outcome->not_started = std::move(not_started);
+    return *outcome;
   }
   Outcome outcome;
   outcome.broken.push_back("the program did not press in 20 tries; the last: " + not_started.back());
@@ -155,12 +157,13 @@ constexpr Bounds kKilled{kDetected, 0.020, false};
 constexpr Bounds kStopped{kDetected, kDetected + 0.004 + 2 * 0.25e-3, false};
 
 Outcome killed(RandomStream& random, double stall) {
-  return onPressing(random, stall, [&](PressingProgram& program) {
+  return onPressing(random, stall, [&](PressingProgram& program) -> std::optional<Outcome> {
     Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGKILL);
     const bool released = program.isReleased();
     witness.stop();
+    if (!pressedAt(program.log(), sent.at_ns)) return std::nullopt;
     Outcome outcome = judged(program.log(), sent.at_ns, program.log().written);
     excuse(program.log(), witness, sent, kKilled, outcome);
     if (!released) outcome.broken.emplace_back("the supervisor did not end");
@@ -183,16 +186,18 @@ void judgeReturn(const ProbeLog& log, std::int64_t resumed, Outcome& outcome) {
   }
   outcome.step = steepest(log, log.written);
   // a supervisor that was held up for long on the way back holds its device for lost
-  if (!pushes(log) && longestPause(log, resumed) <= kLoss) outcome.broken.emplace_back("the force never returned");
+  if (!pushes(log) && longestPause(log, resumed) <= PressingProgram::kLoss)
+    outcome.broken.emplace_back("the force never returned");
 }
 
 Outcome stopped(RandomStream& random, double stall) {
-  return onPressing(random, stall, [&](PressingProgram& program) {
+  return onPressing(random, stall, [&](PressingProgram& program) -> std::optional<Outcome> {
     Witness witness;
     sleepFor(random.uniform(0, 0.05));
     const Sent sent = sendSignal(program.pid(), SIGSTOP);
     sleepFor(random.uniform(0.03, 0.3));
     witness.stop();
+    if (!pressedAt(program.log(), sent.at_ns)) return std::nullopt;
     const std::uint64_t end = program.log().written;
     const std::int64_t resumed = monotonicNs();
     kill(program.pid(), SIGCONT);

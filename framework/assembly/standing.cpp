@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "framework/scene/goal_pose.h"
+#include "framework/assembly/goal_choice.h"
 
 namespace presa {
 namespace {
@@ -14,10 +14,6 @@ using Status = GoalState::Status;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSlow = 0.02;  // [m/s]
 constexpr double kSlack = 2;    // multiple of the tolerances [-]: a viewer's picture is a period old and interpolated
-
-PoseDifference differenceTo(const AssemblyGoal& goal, const Pose& X_WB) {
-  return poseDifference(nearestTurn(goal.X_WB, goal.fold, X_WB.q), X_WB);
-}
 
 }  // namespace
 

@@ -32,8 +32,12 @@ std::vector<Part> parts() {
     topics.insert(topics.end(), more.begin(), more.end());
     return topics;
   };
-  return {{"run", with(state, {"presa_answer", "presa_parameter"}), {"presa_command"}},
+  return {{"run",
+           with(state, {"presa_answer", "presa_parameter", "presa_guide_status"}),
+           {"presa_command", "presa_guide_order"}},
           {"viewer", walls, with(state, {"presa_wall_frame", "presa_wall_drawn"})},
+          {"guide", with(walls, {"presa_guide_order"}),
+           with(state, {"presa_wall_frame", "presa_wall_drawn", "presa_guide_status"})},
           {"commander", {"presa_command"}, with(state, {"presa_answer", "presa_parameter"})}};
 }
 
@@ -111,7 +115,7 @@ KeyFiles checkedKeys(const std::string& folder) {
     if (stat(file->c_str(), &status) != 0 || !S_ISREG(status.st_mode)) {
       diagnostics.error(
           753, {*file, 0, 0}, "no such file; it is part of the keys for the bus",
-          "presa bus keys DIR makes them; --bus-keys takes one part: DIR/run, DIR/viewer or DIR/commander");
+          "presa bus keys DIR makes them; --bus-keys takes one part: DIR/run, DIR/viewer, DIR/guide or DIR/commander");
     } else if (file == &files.key && (status.st_mode & 077U) != 0) {
       diagnostics.error(753, {*file, 0, 0}, "others on this machine may read the private key", "run chmod 600 on it");
     }

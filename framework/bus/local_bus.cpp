@@ -25,6 +25,8 @@ struct LocalBus::Hub {
   std::optional<RunInfo> run;  // kept for late readers
   std::vector<std::vector<Command>*> posts;
   std::vector<Commander::Replies*> commanders;
+  std::vector<std::vector<GuideOrder>*> order_posts;
+  std::vector<std::vector<GuideStatus>*> order_senders;
   std::map<std::pair<std::uint64_t, std::string>, OpenParameter> parameters;  // kept for late commanders
 };
 
@@ -127,11 +129,61 @@ class LocalBus::LocalCommander final : public Commander {
   Replies replies_;
 };
 
+class LocalBus::LocalOrderPost final : public OrderPost {
+ public:
+  explicit LocalOrderPost(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->order_posts.push_back(&orders_);
+  }
+  ~LocalOrderPost() override {
+    const std::lock_guard lock(hub_->mutex);
+    std::erase(hub_->order_posts, &orders_);
+  }
+  void show(const GuideStatus& status) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    for (std::vector<GuideStatus>* sender : hub_->order_senders) sender->push_back(status);
+  }
+  std::vector<GuideOrder> take() override {
+    const std::lock_guard lock(hub_->mutex);
+    return std::exchange(orders_, {});
+  }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  std::vector<GuideOrder> orders_;
+};
+
+class LocalBus::LocalOrderSender final : public OrderSender {
+ public:
+  explicit LocalOrderSender(std::shared_ptr<Hub> hub) : hub_(std::move(hub)) {
+    const std::lock_guard lock(hub_->mutex);
+    hub_->order_senders.push_back(&statuses_);
+  }
+  ~LocalOrderSender() override {
+    const std::lock_guard lock(hub_->mutex);
+    std::erase(hub_->order_senders, &statuses_);
+  }
+  void send(const GuideOrder& order) noexcept override {
+    const std::lock_guard lock(hub_->mutex);
+    for (std::vector<GuideOrder>* post : hub_->order_posts) post->push_back(order);
+  }
+  std::vector<GuideStatus> take() override {
+    const std::lock_guard lock(hub_->mutex);
+    return std::exchange(statuses_, {});
+  }
+
+ private:
+  std::shared_ptr<Hub> hub_;
+  std::vector<GuideStatus> statuses_;
+};
+
 LocalBus::LocalBus(std::size_t capacity) : hub_(std::make_shared<Hub>(capacity)) {}
 LocalBus::~LocalBus() = default;
 std::unique_ptr<Writer> LocalBus::writer() { return std::make_unique<LocalWriter>(hub_); }
 std::unique_ptr<Reader> LocalBus::reader() { return std::make_unique<LocalReader>(hub_); }
 std::unique_ptr<CommandPost> LocalBus::post() { return std::make_unique<LocalPost>(hub_); }
 std::unique_ptr<Commander> LocalBus::commander() { return std::make_unique<LocalCommander>(hub_); }
+std::unique_ptr<OrderPost> LocalBus::orderPost() { return std::make_unique<LocalOrderPost>(hub_); }
+std::unique_ptr<OrderSender> LocalBus::orderSender() { return std::make_unique<LocalOrderSender>(hub_); }
 
 }  // namespace presa::bus

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "framework/bus/guide_link.h"
 #include "framework/bus/state_bus.h"
 
 namespace presa::bus {
@@ -17,6 +18,8 @@ class LocalBus {
   std::unique_ptr<Reader> reader();
   std::unique_ptr<CommandPost> post();
   std::unique_ptr<Commander> commander();
+  std::unique_ptr<OrderPost> orderPost();
+  std::unique_ptr<OrderSender> orderSender();
 
  private:
   struct Hub;
@@ -24,6 +27,8 @@ class LocalBus {
   class LocalReader;
   class LocalPost;
   class LocalCommander;
+  class LocalOrderPost;
+  class LocalOrderSender;
   std::shared_ptr<Hub> hub_;
 };
 

@@ -17,13 +17,30 @@ std::uint64_t newRunId() {
   return id == 0 ? 1 : id;
 }
 
+Publisher::GuideEnd::GuideEnd(Module& owner, const Scene& scene, bool realtime, GuideDesk::Open open)
+    : assembly(owner, "assembly_state", In<AssemblyState>::Optional{}),
+      orders(owner, kGuideOrdersPort),
+      report(owner, kGuideReportPort),
+      desk(scene, realtime, std::move(open)) {
+  orders.value = desk.orders();
+  report.value = desk.report();
+}
+
+void Publisher::GuideEnd::serve(const Stamp& stamp) noexcept {
+  desk.serve(stamp, assembly.value());
+  orders.value = desk.orders();
+  report.value = desk.report();
+}
+
 Publisher::Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open,
-                     ParameterServer::Open open_post)
+                     ParameterServer::Open open_post, GuideDesk::Open open_orders)
     : Module("bus_dds", RateGroup::kBus),
       world_(std::move(world)),
       realtime_(options.realtime),
       open_(std::move(open)) {
   if (options.bus_commands) server_ = std::make_unique<Server>(*this, world_->scene, std::move(open_post));
+  if (options.guide == RunOptions::Guide::kViewer && world_->scene.assembly)
+    guide_ = std::make_unique<GuideEnd>(*this, world_->scene, realtime_, std::move(open_orders));
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].fixed) continue;  // its pose is in the scene
@@ -41,6 +58,7 @@ std::vector<std::string> Publisher::stages() const {
   std::vector<std::string> stages{"take the latest states, poses interpolated to now",
                                   "hand every object and finger to the network"};
   if (server_) stages.emplace_back("check the commands that have arrived, and answer them");
+  if (guide_) stages.emplace_back("tell the guide in the viewer the state of the assembly, and check its orders");
   return stages;
 }
 
@@ -49,8 +67,9 @@ void Publisher::start() {
   run_ = newRunId();
   const Scene& scene = world_->scene;
   writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), realtime_, scene.name,
-                     scene.resolved_xml, server_ != nullptr, sumsOfMeshes(scene)});
+                     scene.resolved_xml, server_ != nullptr, sumsOfMeshes(scene), guide_ != nullptr});
   if (server_) server_->server.start(run_);
+  if (guide_) guide_->desk.start(run_);
 }
 
 void Publisher::step(const Tick& tick) noexcept {
@@ -62,8 +81,10 @@ void Publisher::step(const Tick& tick) noexcept {
   heartbeat_.fingers = static_cast<std::int32_t>(finger_samples_.size());
   heartbeat_.output_status = command_->status;
   heartbeat_.object_faults = objects_->faults;
+  if (guide_) guide_->desk.show(stamp, guide_->assembly.value());
   heartbeat_.refused += writer_->publish({object_samples_, finger_samples_, heartbeat_});
   publishEvents(stamp);
+  if (guide_) guide_->serve(stamp);
   if (!server_) return;
   server_->server.serve(tick.time);
   server_->settings.value = server_->server.surfaces();
@@ -72,6 +93,7 @@ void Publisher::step(const Tick& tick) noexcept {
 void Publisher::stop() {
   if (!writer_) return;
   if (server_) server_->server.stop();
+  if (guide_) guide_->desk.stop();
   // publish the last states once more, so that the end does not look like a loss
   const Stamp stamp{run_, heartbeat_.stamp.sequence + 1, heartbeat_.stamp.time, monotonicNs()};
   heartbeat_.stamp = stamp;

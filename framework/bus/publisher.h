@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/bus/guide_desk.h"
 #include "framework/bus/parameter_server.h"
 #include "framework/bus/state_bus.h"
 #include "framework/core/graph/port.h"
@@ -14,20 +15,22 @@ namespace presa::bus {
 
 /// Publishes every free body and finger of a run once per tick of the bus group. Only reads its ports, which the haptic
 /// thread fills wait-free. Ports, all optional: device_state, contact_exchange, force_command, object_state; only when
-/// the run takes commands (RunOptions::bus_commands) also the out port surface_settings to the haptic thread.
-class Publisher final : public Module, public Commandable {
+/// the run takes commands (RunOptions::bus_commands) also the out port surface_settings to the haptic thread; only when
+/// its guide is in a viewer (RunOptions::guide) assembly_state, and the out ports guide_orders and guide_report.
+class Publisher final : public Module, public Commandable, public Guidable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;
-  /// `open` and `open_post` are called in start(), on the thread of the group, and may throw InputError; `open_post`
-  /// only when the run takes commands.
+  /// All three are called in start(), on the thread of the group, and may throw InputError; `open_post` only when the
+  /// run takes commands, `open_orders` only when its guide is in a viewer.
   Publisher(std::shared_ptr<const World> world, const RunOptions& options, Open open,
-            ParameterServer::Open open_post = {});
+            ParameterServer::Open open_post = {}, GuideDesk::Open open_orders = {});
   ~Publisher() override;
   void start() override;
   void step(const Tick& tick) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
   ParameterServer* parameterServer() noexcept override { return server_ ? &server_->server : nullptr; }
+  GuideDesk* guideDesk() noexcept override { return guide_ ? &guide_->desk : nullptr; }
 
  private:
   struct Server {
@@ -35,6 +38,15 @@ class Publisher final : public Module, public Commandable {
         : settings(owner, "surface_settings"), server(scene, std::move(open)) {}
     Out<SurfaceSettings> settings;
     ParameterServer server;
+  };
+
+  struct GuideEnd {
+    GuideEnd(Module& owner, const Scene& scene, bool realtime, GuideDesk::Open open);
+    void serve(const Stamp& stamp) noexcept;
+    In<AssemblyState> assembly;
+    Out<GuideOrders> orders;
+    Out<GuideReport> report;
+    GuideDesk desk;
   };
 
   void fillObjects(const Stamp& stamp) noexcept;
@@ -45,6 +57,7 @@ class Publisher final : public Module, public Commandable {
   const bool realtime_;
   Open open_;
   std::unique_ptr<Server> server_;
+  std::unique_ptr<GuideEnd> guide_;
   In<DeviceState> device_{*this, "device_state", In<DeviceState>::Optional{}};
   In<ContactExchange> contact_{*this, "contact_exchange", In<ContactExchange>::Optional{}};
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};

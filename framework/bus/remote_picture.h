@@ -45,6 +45,8 @@ class RemotePicture final : public Listener {
   /// Time of the newest sample [s].
   double newest() const noexcept { return newest_; }
   std::uint64_t run() const noexcept { return run_.run; }
+  /// Stamp::sequence of the newest heartbeat; 0: none yet.
+  std::uint64_t sequence() const noexcept { return heartbeats_.watch.highest(); }
 
   State state() const noexcept { return state_; }
   bool wrongScene() const noexcept { return wrong_scene_; }

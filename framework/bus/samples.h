@@ -108,6 +108,7 @@ struct RunInfo {
   /// viewer looks up the files among its own (takeFromMeshStore) and opens no path received over the bus. Empty when
   /// the scene has no meshes.
   std::string mesh_sums{};
+  bool guide = false;  ///< the guide of the scene's assembly is to be in a viewer (guide_link.h)
 };
 
 /// One publication. The spans are only valid during the call.

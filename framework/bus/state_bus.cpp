@@ -1,5 +1,6 @@
 #include "framework/bus/state_bus.h"
 
+#include "framework/bus/guide_link.h"
 #include "framework/bus/wall_link.h"
 #include "framework/plugin/plugin_loader.h"
 #include "framework/scene/manifest.h"
@@ -35,6 +36,16 @@ std::unique_ptr<Commander> openCommander(const BusSettings& settings) {
 std::unique_ptr<WallLink> openWallLink(const BusSettings& settings) {
   using Open = WallLink* (*)(const BusSettings&);
   return std::unique_ptr<WallLink>(reinterpret_cast<Open>(symbolOf("presaOpenBusWalls"))(settings));
+}
+
+std::unique_ptr<OrderPost> openOrderPost(const BusSettings& settings) {
+  using Open = OrderPost* (*)(const BusSettings&);
+  return std::unique_ptr<OrderPost>(reinterpret_cast<Open>(symbolOf("presaOpenBusOrderPost"))(settings));
+}
+
+std::unique_ptr<OrderSender> openOrderSender(const BusSettings& settings) {
+  using Open = OrderSender* (*)(const BusSettings&);
+  return std::unique_ptr<OrderSender>(reinterpret_cast<Open>(symbolOf("presaOpenBusOrderSender"))(settings));
 }
 
 }  // namespace presa::bus

@@ -12,6 +12,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
 #include "framework/core/state/object_state.h"
+#include "framework/scene/guide_orders.h"
 #include "framework/scene/run_options.h"
 #include "framework/scene/world.h"
 
@@ -21,6 +22,7 @@ namespace presa {
 struct RecordedDevices {
   std::vector<std::size_t> tools;                ///< roles whose devices measure their orientation, in order
   std::vector<std::vector<std::string>> phases;  ///< Device::phases() of each role; may be shorter
+  bool guided = false;                           ///< the guide of the assembly is in a viewer
   std::vector<std::string> frames{};             ///< names of the frames of the rig; empty: they are not in the run
 };
 
@@ -76,6 +78,8 @@ struct Recording {
     double value;
   };
   std::vector<Command> commands;
+  bool guided = false;                     ///< the guide of the assembly was in a viewer
+  std::vector<TakenOrders::Order> orders;  ///< its orders, in the order in which they were taken
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
   /// The values whose versions the schedule holds. Absent in format 6 and older: then all that the group reads, in the
   /// alphabetical order of their names.

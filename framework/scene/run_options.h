@@ -44,6 +44,9 @@ struct RunOptions {
   std::optional<SimulatedPerson> person{};
   std::optional<BusSettings> bus{};  ///< takes precedence over rig and scene; network "none": no bus
   bool bus_commands = false;         ///< accept commands even if rig and scene do not
+  /// Where the guide of the scene's assembly runs: beside the dynamics, or in a viewer that sends its decisions over the
+  /// bus as commands.
+  enum class Guide { kBeside, kViewer } guide = Guide::kBeside;
   PictureOptions picture{};
 };
 

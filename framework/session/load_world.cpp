@@ -17,6 +17,8 @@
 namespace presa {
 namespace {
 
+enum LoadCode { kGuideUnheard = 770, kNothingToGuide = 771 };
+
 std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostics& diagnostics) {
   std::vector<Override> overrides;
   for (const std::string& set : sets) {
@@ -104,12 +106,26 @@ std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOption
   return SceneAndRig{std::move(scene), std::move(rig)};
 }
 
+/// A guide in a viewer needs a task, and a run that takes its orders.
+void checkGuide(const Loaded& loaded, Diagnostics& diagnostics) {
+  if (loaded.options.guide != RunOptions::Guide::kViewer) return;
+  const SourceLocation where{"--guide viewer", 0, 0};
+  if (!loaded.world->scene.assembly)
+    diagnostics.error(kNothingToGuide, where, "the scene has no <assembly>, so there is nothing to guide",
+                      "leave out --guide");
+  if (!loaded.options.bus || !loaded.options.bus_commands)
+    diagnostics.error(kGuideUnheard, where,
+                      "the guide in a viewer sends its decisions as commands, this run takes none",
+                      "add --bus loopback --bus-commands");
+}
+
 }  // namespace
 
 Loaded loadWorld(const Inputs& inputs, RunOptions options, Diagnostics& diagnostics) {
   std::optional<SceneAndRig> read = readSceneAndRig(inputs, options, diagnostics);
   if (!read) return {};
   Loaded loaded = finish(std::move(read->scene), std::move(read->rig), std::move(options), diagnostics);
+  checkGuide(loaded, diagnostics);
   addDevices(loaded, diagnostics);
   return loaded;
 }

@@ -7,6 +7,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/schedule/rates.h"
 #include "framework/record/mesh_sums.h"
+#include "framework/scene/guide_orders.h"
 #include "framework/scene/open_surfaces.h"
 #include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
@@ -75,6 +76,30 @@ class RecordedCommands final : public Module {
   const Recording& recording_;
   std::size_t row_ = 0, next_ = 0;
   Out<SurfaceSettings> settings_{*this, "surface_settings"};
+};
+
+/// Repeats what a guide in a viewer ordered, in the ticks in which the assembly module took it.
+class RecordedOrders final : public Module {
+ public:
+  RecordedOrders(const Recording& recording, std::size_t goals)
+      : Module("recorded_orders", RateGroup::kCollision), recording_(recording) {
+    orders_.value.draws.resize(goals);
+  }
+  void step(const Tick& tick) noexcept override {
+    for (; next_ < recording_.orders.size() && recording_.orders[next_].tick <= tick.index; ++next_) {
+      const TakenOrders::Order& order = recording_.orders[next_];
+      if (order.goal == TakenOrders::kUndo) ++orders_.value.undone;
+      if (order.goal < 0 || static_cast<std::size_t>(order.goal) >= orders_.value.draws.size()) continue;
+      GuideOrders::Draw& draw = orders_.value.draws[static_cast<std::size_t>(order.goal)];
+      draw = {order.body, draw.since + 1};
+    }
+  }
+  std::vector<std::string> stages() const override { return {"repeat the recorded orders of the guide"}; }
+
+ private:
+  const Recording& recording_;
+  std::size_t next_ = 0;
+  Out<GuideOrders> orders_{*this, kGuideOrdersPort};
 };
 
 constexpr std::array kGroups{RateGroup::kDynamics, RateGroup::kCollision, RateGroup::kHaptic};
@@ -184,6 +209,17 @@ void checkBelongs(const Recording& recording, const Scene& scene, Diagnostics& d
   };
   compare("fingers", recording.fingers, scene.devices.size());
   compare("bodies", recording.bodies, scene.bodies.size());
+  const auto goals = static_cast<std::int32_t>(scene.assembly ? scene.assembly->goals.size() : 0);
+  for (const TakenOrders::Order& order : recording.orders) {
+    if (order.goal < goals) continue;
+    diagnostics.error(677, {recording.file, 0, 0},
+                      "haptic/guide: column 'goal': found " + std::to_string(order.goal) + ", its scene has " +
+                          std::to_string(goals) + " goals");
+    break;
+  }
+  if (recording.guided && goals == 0)
+    diagnostics.error(677, {recording.file, 0, 0},
+                      "haptic/guide: the recording has a guide, its scene has no assembly");
   compare("haptic period [s]", recording.haptic_period, RateTable(scene.rates).period(RateGroup::kHaptic));
   const std::size_t open = openSurfaces(scene).size();
   for (const Recording::Command& command : recording.commands) {
@@ -202,12 +238,13 @@ void checkMeshes(const Recording& recording, const Scene& scene, Diagnostics& di
 }
 
 /// Modules that repeat the recorded changes; none if nothing changed during the run.
-std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording) {
+std::vector<std::unique_ptr<Module>> changesOf(const Recording& recording, const Scene& scene) {
   std::vector<std::unique_ptr<Module>> changes;
   const auto& changed = recording.surfaces_changed;
   if (std::find(changed.begin(), changed.end(), 1) != changed.end())
     changes.push_back(std::make_unique<RecordedSurfaces>(recording));
   if (!recording.commands.empty()) changes.push_back(std::make_unique<RecordedCommands>(recording));
+  if (recording.guided) changes.push_back(std::make_unique<RecordedOrders>(recording, scene.assembly->goals.size()));
   return changes;
 }
 
@@ -258,6 +295,7 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   options.force_share = recording.force_share;
   options.bus = BusSettings{.network = "none"};  // a replay is not published
   options.bus_commands = !recording.commands.empty();
+  if (recording.guided) options.guide = RunOptions::Guide::kViewer;
   Loaded loaded =
       loadWithoutDevices({recording.scene_xml, recording.scene_file, recording.rig_xml}, options, diagnostics);
   if (!diagnostics.hasErrors()) checkBelongs(recording, loaded.world->scene, diagnostics);
@@ -265,7 +303,7 @@ RecordedRun::RecordedRun(const Recording& recording, Diagnostics& diagnostics) :
   if (diagnostics.hasErrors()) return;
   Session::Options session_options;
   session_options.devices = devicesOf(recording);
-  session_options.more = changesOf(recording);
+  session_options.more = changesOf(recording, loaded.world->scene);
   session_ = std::make_unique<Session>(std::move(loaded), control_, std::move(session_options));
   columns_ = columnsOf(recording, session_->graph(), diagnostics);
   if (diagnostics.hasErrors()) session_.reset();

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "framework/assembly/guide_module.h"
+#include "framework/assembly/told_guide_module.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/device/device_modules.h"
@@ -237,8 +238,10 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));
   if (!world_->rig.frames.empty() && frames_) frame_watch_ = &builder.add(std::make_unique<FrameWatch>(frames_));
-  if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone))
-    builder.add(std::make_unique<GuideModule>(world_));
+  if (world_->scene.assembly && (options.guide || options_.view != RunOptions::View::kNone)) {
+    if (options_.guide == RunOptions::Guide::kBeside) builder.add(std::make_unique<GuideModule>(world_));
+    if (options_.guide == RunOptions::Guide::kViewer) builder.add(std::make_unique<ToldGuideModule>(world_->scene));
+  }
   for (const PlannedModule& planned : plan_.modules) builder.add(load(planned));
   offerPointer();
   if (!devices_.empty()) {
@@ -337,6 +340,7 @@ RecordedDevices Session::recordedDevices() const {
   }
   if (frames_)
     for (const Frame& frame : world_->rig.frames) recorded.frames.push_back(frame.name);
+  recorded.guided = world_->scene.assembly && options_.guide == RunOptions::Guide::kViewer;
   return recorded;
 }
 

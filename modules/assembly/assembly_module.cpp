@@ -1,5 +1,7 @@
 #include "modules/assembly/assembly_module.h"
 
+#include "modules/assembly/ordered_assembly.h"
+
 namespace presa::assembly {
 
 AssemblyModule::AssemblyModule(std::shared_ptr<const World> world)
@@ -32,7 +34,8 @@ std::vector<std::string> AssemblyModule::stages() const {
 
 namespace {
 
-std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions&) {
+std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  if (options.guide == RunOptions::Guide::kViewer) return std::make_unique<OrderedAssembly>(std::move(world));
   return std::make_unique<AssemblyModule>(std::move(world));
 }
 

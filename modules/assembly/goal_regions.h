@@ -1,69 +1,32 @@
 #pragma once
-#include <cstdint>
-#include <vector>
-
-#include "framework/assembly/assembly_state.h"
-#include "framework/assembly/snap_constraint.h"
-#include "framework/core/state/object_state.h"
-#include "framework/scene/goal_pose.h"
-#include "framework/scene/scene.h"
+#include "framework/assembly/goal_choice.h"
+#include "framework/assembly/goal_pulls.h"
 
 namespace presa::assembly {
 
-/// Decides which body is pulled to which goal, what has arrived, and what must wait. Deterministic: equal states give
-/// equal decisions.
-/// Thread: one; step() allocates no memory.
+/// Choice and pulls in one place: decides which body is pulled to which goal, what has arrived, and what must wait.
+/// Deterministic: equal states give equal decisions. Thread: one; step() allocates no memory.
 class GoalRegions {
  public:
-  GoalRegions(const Assembly& assembly, std::size_t bodies);
+  GoalRegions(const Assembly& assembly, std::size_t bodies) : choice_(assembly, bodies), pulls_(assembly, bodies) {}
 
   /// `period`: time since the last step [s].
-  void step(const ObjectState& objects, double period);
+  void step(const ObjectState& objects, double period) {
+    choice_.step(objects, pulls_.state().goals);
+    pulls_.step(objects, choice_.goals(), period);
+  }
   /// Releases the last placed body; it is not pulled to that goal again before it has been out of reach.
-  void undo();
+  void undo() {
+    const GoalPulls::Released released = pulls_.undo();
+    if (released.goal != kNoGoal) choice_.leave(released.goal, released.body);
+  }
 
-  const AssemblyState& state() const noexcept { return state_; }
-  const SnapConstraints& snapConstraints() const noexcept { return snap_constraints_; }
-
-  static constexpr double kSettle = 0.1;    ///< time within tolerance and slow before a body counts as placed [s]
-  static constexpr double kSlow = 0.01;     ///< maximum speed of a placed body [m/s]
-  static constexpr double kSlowTurn = 0.2;  ///< maximum angular speed of a placed body [rad/s]
-  static constexpr double kLeave = 1.25;    ///< a pulled body is released at this multiple of the reach [-]
-  static constexpr double kRate = 20, kSpeed = 0.1;  ///< SnapConstraint::rate [1/s] and ::speed [m/s]
-  static constexpr double kRise = 0.3;               ///< time in which the pull rises to its maximum [s]
-  /// Slow rolling bodies are braked as by grass, because a drum on even ground would never stop: deceleration [m/s^2],
-  /// applied below a speed [m/s].
-  static constexpr double kGrass = 0.3, kRollsTo = 0.5;
-  static constexpr double kBringBackWeights = 1.5;  ///< pull in weights, more than friction on the ground can hold [-]
+  const AssemblyState& state() const noexcept { return pulls_.state(); }
+  const SnapConstraints& snapConstraints() const noexcept { return pulls_.snapConstraints(); }
 
  private:
-  struct Candidate {
-    std::size_t goal = 0, body = 0;
-    PoseDifference difference;
-    Pose X_WB;  ///< goal pose in the nearest symmetric orientation
-  };
-  void findCandidates(const ObjectState& objects);
-  void assign();
-  void settle(const ObjectState& objects, double period);
-  void bringBack(const ObjectState& objects, double period);
-  void slowDown(const ObjectState& objects);
-  void addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights, double speed);
-  std::int32_t missing(std::size_t goal) const;
-
-  const Assembly& assembly_;
-  std::vector<char> belongs_;          // by body: some goal accepts it
-  std::vector<std::int32_t> goal_of_;  // by body: the goal it is pulled to or stands at; kNoGoal
-  std::vector<std::int32_t> refused_;  // by body: goal that undo took it from, until it has been out of reach
-  std::vector<Pose> placed_;           // by goal: target pose of its body
-  std::vector<double> pull_time_;      // by goal: time for which it has pulled its body [s]
-  std::vector<double> settled_;        // by goal: time for which its body has been in place [s]
-  std::vector<std::size_t> order_;     // filled goals, in order of filling
-  std::vector<double> returning_;      // by body: time outside the workspace without progress [s]
-  std::vector<double> nearest_;        // by body: smallest distance to its return target so far [m]
-  std::vector<char> carried_;          // by body: carried back as a fixed body, through obstacles
-  std::vector<Candidate> candidates_;
-  AssemblyState state_;
-  SnapConstraints snap_constraints_;
+  GoalChoice choice_;
+  GoalPulls pulls_;
 };
 
 }  // namespace presa::assembly

@@ -123,12 +123,13 @@ presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
           const_cast<char*>(run.scene_name.c_str()),
           const_cast<char*>(run.scene_xml.c_str()),
           run.commands,
-          const_cast<char*>(run.mesh_sums.c_str())};
+          const_cast<char*>(run.mesh_sums.c_str()),
+          run.guide};
 }
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run) {
   const auto text = [](const char* from) { return from != nullptr ? std::string(from) : std::string(); };
-  return {run.run,      run.scene_hash,     run.period, run.realtime, text(run.scene_name), text(run.scene_xml),
-          run.commands, text(run.mesh_sums)};
+  return {run.run,      run.scene_hash,      run.period, run.realtime, text(run.scene_name), text(run.scene_xml),
+          run.commands, text(run.mesh_sums), run.guide};
 }
 
 presa_dds_Command toTopic(const bus::Command& command) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 #include <RunState.h>
 
+#include "framework/bus/guide_link.h"
 #include "framework/bus/samples.h"
 #include "framework/bus/wall_link.h"
 
@@ -20,6 +21,23 @@ presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept;
 presa_dds_WallFrame toTopic(const bus::WallFrame& frame) noexcept;
 presa_dds_WallDrawn toTopic(const bus::WallDrawn& drawn) noexcept;
 
+/// The topic's sequences point to the vectors beside it. Not copied.
+struct GuideOrderTopic {
+  explicit GuideOrderTopic(const bus::GuideOrder& order);
+  GuideOrderTopic(const GuideOrderTopic&) = delete;
+  GuideOrderTopic& operator=(const GuideOrderTopic&) = delete;
+  std::vector<std::int32_t> draws;
+  std::vector<presa_dds_GuideEvent> events;
+  presa_dds_GuideOrder topic{};
+};
+struct GuideStatusTopic {
+  explicit GuideStatusTopic(const bus::GuideStatus& status);
+  GuideStatusTopic(const GuideStatusTopic&) = delete;
+  GuideStatusTopic& operator=(const GuideStatusTopic&) = delete;
+  std::vector<presa_dds_GoalStanding> goals;
+  presa_dds_GuideStatus topic{};
+};
+
 bus::ObjectSample fromTopic(const presa_dds_ObjectState& sample) noexcept;
 bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept;
 bus::Heartbeat fromTopic(const presa_dds_Beat& heartbeat) noexcept;
@@ -30,5 +48,7 @@ bus::OpenParameter fromTopic(const presa_dds_Parameter& parameter);
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run);
 bus::WallFrame fromTopic(const presa_dds_WallFrame& frame) noexcept;
 bus::WallDrawn fromTopic(const presa_dds_WallDrawn& drawn);
+bus::GuideOrder fromTopic(const presa_dds_GuideOrder& order);
+bus::GuideStatus fromTopic(const presa_dds_GuideStatus& status);
 
 }  // namespace presa::bus_dds

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "framework/bus/guide_link.h"
 #include "framework/bus/state_bus.h"
 #include "framework/bus/wall_link.h"
 
@@ -13,5 +14,7 @@ std::unique_ptr<bus::Reader> makeReader(const BusSettings& settings);
 std::unique_ptr<bus::CommandPost> makePost(const BusSettings& settings);
 std::unique_ptr<bus::Commander> makeCommander(const BusSettings& settings);
 std::unique_ptr<bus::WallLink> makeWallLink(const BusSettings& settings);
+std::unique_ptr<bus::OrderPost> makeOrderPost(const BusSettings& settings);
+std::unique_ptr<bus::OrderSender> makeOrderSender(const BusSettings& settings);
 
 }  // namespace presa::bus_dds

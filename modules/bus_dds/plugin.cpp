@@ -11,8 +11,8 @@ namespace {
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
   const BusSettings settings = options.bus.value_or(BusSettings{});
   return std::make_unique<bus::Publisher>(
-      std::move(world), options, [settings] { return makeWriter(settings); },
-      [settings] { return makePost(settings); });
+      std::move(world), options, [settings] { return makeWriter(settings); }, [settings] { return makePost(settings); },
+      [settings] { return makeOrderPost(settings); });
 }
 
 std::string library() { return "Cyclone DDS " DDS_VERSION; }
@@ -47,4 +47,14 @@ extern "C" __attribute__((visibility("default"))) presa::bus::WallLink* presaOpe
 extern "C" __attribute__((visibility("default"))) presa::bus::CommandPost* presaOpenBusPost(
     const presa::BusSettings& settings) {
   return presa::bus_dds::makePost(settings).release();
+}
+
+extern "C" __attribute__((visibility("default"))) presa::bus::OrderPost* presaOpenBusOrderPost(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeOrderPost(settings).release();
+}
+
+extern "C" __attribute__((visibility("default"))) presa::bus::OrderSender* presaOpenBusOrderSender(
+    const presa::BusSettings& settings) {
+  return presa::bus_dds::makeOrderSender(settings).release();
 }

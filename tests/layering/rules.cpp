@@ -62,7 +62,7 @@ const std::vector<Arrows>& arrows() {
       {"framework/record/", {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/"}},
       {"framework/bus/",
        {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/", "framework/device/",
-        "framework/record/"}},
+        "framework/record/", "framework/assembly/"}},
       {"framework/walls/", {"framework/core/", "framework/scene/", "framework/device/", "framework/bus/"}},
       {"framework/session/",
        {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/", "framework/assembly/",

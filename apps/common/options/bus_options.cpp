@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "framework/bus/bus_keys.h"
+
 namespace presa {
 
 void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::string& what_for) {
@@ -46,6 +48,27 @@ void addMeshesOption(Command command, std::vector<std::string>& folders) {
 void addBusCommandsOption(Command command, bool& open) {
   command.flag("--bus-commands", open,
                "let others on the bus set parameters of the run (presa bus set); without it, commands are ignored");
+}
+
+void addGuideOption(Command command, RunOptions& options) {
+  command
+      .each(
+          "--guide",
+          [&options](const std::string& where) {
+            options.guide = where == "viewer" ? RunOptions::Guide::kViewer : RunOptions::Guide::kBeside;
+          },
+          "where the guide of the assembly runs: beside the dynamics (default), or in a viewer, which sends its "
+          "decisions\n"
+          "over the bus (presa view --join --guide; needs --bus-commands)")
+      .oneOf({"beside", "viewer"});
+}
+
+void checkBusCommands(bool asked, const RunOptions& loaded, Diagnostics& diagnostics) {
+  if (diagnostics.hasErrors()) return;
+  if (asked && !loaded.bus)
+    diagnostics.error(122, {"--bus-commands", 0, 0}, "--bus-commands needs a bus", "add --bus loopback, or --bus lan");
+  else if (loaded.bus_commands && loaded.bus)
+    bus::requireKeysForCommands(*loaded.bus);
 }
 
 }  // namespace presa

@@ -4,7 +4,7 @@
 #include <vector>
 #include "apps/common/options/command_line.h"
 
-#include "framework/scene/scene.h"
+#include "framework/scene/run_options.h"
 
 namespace presa {
 
@@ -16,5 +16,10 @@ void addMeshesOption(Command command, std::vector<std::string>& folders);
 
 /// Adds --bus-commands.
 void addBusCommandsOption(Command command, bool& open);
+/// Adds --guide beside|viewer.
+void addGuideOption(Command command, RunOptions& options);
+/// E122 --bus-commands without a bus; E752 commands without keys on a network that others are on. `loaded`: what holds
+/// for the run.
+void checkBusCommands(bool asked, const RunOptions& loaded, Diagnostics& diagnostics);
 
 }  // namespace presa

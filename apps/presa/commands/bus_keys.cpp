@@ -12,8 +12,8 @@ void addBusKeys(Command app, int& status) {
   Command command = app.command("keys", "Make certificates, so that only programs that have one can use the bus");
   command.option("DIR", *folder, "a folder that does not exist yet").required();
   command.footer(
-      "Makes DIR/run, DIR/viewer and DIR/commander: take each to the machine that plays that part, and name it there "
-      "with\n"
+      "Makes DIR/run, DIR/viewer, DIR/guide and DIR/commander: take each to the machine that plays that part, and name "
+      "it there with\n"
       "--bus-keys. Programs without a certificate can neither join, nor read, nor forge; a viewer cannot command. "
       "DIR/authority "
       "has\n"
@@ -23,8 +23,9 @@ void addBusKeys(Command app, int& status) {
       "          presa bus set material/rubber/stiffness=500 --bus lan --bus-keys lab/commander");
   command.action([=, &status] {
     bus::makeKeys(*folder);
-    std::printf("%s/run, %s/viewer, %s/commander: valid for ten years; the key in %s/authority signed them\n",
-                folder->c_str(), folder->c_str(), folder->c_str(), folder->c_str());
+    const char* dir = folder->c_str();
+    std::printf("%s/run, %s/viewer, %s/guide, %s/commander: valid for ten years; the key in %s/authority signed them\n",
+                dir, dir, dir, dir, dir);
     status = kExitOk;
   });
 }

@@ -21,14 +21,16 @@ struct ExplainArguments {
   bool grasp = false;
   bool record = false;
   std::string view = "none";
-  std::optional<BusSettings> bus;
+  RunOptions bus;  ///< only what concerns the bus
 };
 
 /// Output files of the run go to `scratch`, because the user did not ask for them.
 RunOptions optionsOf(const ExplainArguments& arguments, const ScratchFolder& scratch) {
   RunOptions options;
   options.bound_stiffness = true;
-  options.bus = arguments.bus;
+  options.bus = arguments.bus.bus;
+  options.bus_commands = arguments.bus.bus_commands;
+  options.guide = arguments.bus.guide;
   if (arguments.record) {
     options.record = scratch.file("run.h5");
     options.realtime = true;  // a recorder that waits for the disk would hide its cost per haptic tick
@@ -83,7 +85,9 @@ void addExplain(Command app, int& status) {
       command.flag("--record", arguments->record, "explain a run that is recorded (to a file that is thrown away)");
   command.option("--view", arguments->view, "explain a run with this view: window, offscreen or none (default)")
       .oneOf({"window", "offscreen", "none"});
-  addBusOptions(command, arguments->bus, "explain a run that is published");
+  addBusOptions(command, arguments->bus.bus, "explain a run that is published");
+  addBusCommandsOption(command, arguments->bus.bus_commands);
+  addGuideOption(command, arguments->bus);
   Option cost =
       command.flag("--cost", arguments->cost,
                    "play the scene with its devices (10 s of it at most) and tell for each module the wall time of\n"

@@ -64,6 +64,8 @@ void printHeader(const std::string& file, const Recording& recording) {
               recording.realtime ? "real time" : "lockstep", recording.checksum ? "checksum right" : "no checksum",
               recording.dropped > 0 ? ", INCOMPLETE" : "");
   printProvenance(recording);
+  if (recording.guided)
+    std::printf("  the guide of the assembly was in a viewer: %zu orders\n", recording.orders.size());
   const auto stop =
       std::ranges::find_if(recording.device, [](const DeviceState& state) { return state.stop_requested; });
   if (stop != recording.device.end()) std::printf("  stopped by the user at %.3f s; then forces faded\n", stop->time);

@@ -13,7 +13,6 @@
 #include "apps/common/terminal/waiting.h"
 #include "apps/common/terminal_run.h"
 #include "apps/presa/commands/commands.h"
-#include "framework/bus/bus_keys.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/session/load_world.h"
 
@@ -96,6 +95,7 @@ std::string commandLine(const RunArguments& a) {
   for (const std::string& set : a.inputs.sets) line += " --set '" + set + "'";
   if (a.options.bus) line += " --bus " + a.options.bus->network;
   if (a.options.bus_commands) line += " --bus-commands";
+  if (a.options.guide == RunOptions::Guide::kViewer) line += " --guide viewer";
   if (a.options.seed != 1) line += " --seed " + std::to_string(a.options.seed);
   return line;
 }
@@ -130,9 +130,7 @@ int run(RunArguments arguments) {
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
   if (!diagnostics.hasErrors()) checkOptions(arguments, loaded.options, diagnostics);
   if (!diagnostics.hasErrors()) checkPlaces(arguments, diagnostics);
-  if (!diagnostics.hasErrors() && arguments.options.bus_commands && !loaded.options.bus)
-    diagnostics.error(122, {"--bus-commands", 0, 0}, "--bus-commands needs a bus", "add --bus loopback, or --bus lan");
-  if (!diagnostics.hasErrors() && loaded.options.bus_commands) bus::requireKeysForCommands(*loaded.options.bus);
+  checkBusCommands(arguments.options.bus_commands, loaded.options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
@@ -199,6 +197,7 @@ void addRun(Command app, int& status) {
   addPictureOptions(command, a->picture, a->options.show);
   addBusOptions(command, a->options.bus, "publish the state for presa view --join");
   addBusCommandsOption(command, a->options.bus_commands);
+  addGuideOption(command, a->options);
   command.option("--summary", a->summary, "results as JSON");
   command.option("--report", a->report, "results as one HTML page with plots");
   command.flag("--plug-ins", a->plug_ins, "print the plug-ins that this run would load, and run nothing");

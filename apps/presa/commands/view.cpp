@@ -65,12 +65,18 @@ void addView(Command app, int& status) {
               "pictures for both eyes on the wall; quad: one picture where the driver has no such buffers")
       .oneOf({walls::kStereoNames.begin(), walls::kStereoNames.end()})
       .showDefault();
+  command.flag(
+      "--guide", settings->guide,
+      "guide the assembly of the run (presa run SCENE --bus-commands --guide viewer): this viewer chooses which "
+      "body\nis pulled to which goal and tells the user what to do");
   command.flag("--quiet", settings->quiet, "no status line");
   command.footer(
       "The picture is one period (5 ms) behind, interpolated. Without the bus it freezes and says so.\n"
       "Exit status: 0 shown, 1 it could not be drawn, 2 bad input or another scene, 3 no run within --wait, 130 "
       "Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --bus loopback &  presa view --join --view window\n"
+      "A guide at the screen:  presa temple --bus loopback --bus-commands --guide viewer, and here  presa view --join "
+      "--guide\n"
       "A CAVE, a process for each wall and one for the head:  presa view --join --walls config/cave/cave.xml --wall "
       "front\n"
       "                                 presa view --join --walls config/cave/cave.xml --head config/cave/head.xml");

@@ -7,6 +7,7 @@
 
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/interruption.h"
+#include "apps/presa/remote/guide_thread.h"
 #include "apps/presa/remote/join.h"
 #include "framework/assembly/guide_module.h"
 #include "framework/bus/mesh_store.h"
@@ -26,6 +27,19 @@ using bus::RemotePicture;
 
 constexpr std::int64_t kPoll = 1'000'000;  ///< of a process of a CAVE [ns]
 
+enum ViewerCode { kOtherGuideLeads = 768 };
+
+/// The guide of this viewer, for its picture. Runs in the view group, before the view.
+class GuideSource final : public Module {
+ public:
+  explicit GuideSource(const Guidance& now) : Module("guide", RateGroup::kView), now_(now) {}
+  void step(const Tick&) noexcept override { guidance_.value.now = now_; }
+
+ private:
+  const Guidance& now_;
+  Out<GuideState> guidance_{*this, "guidance"};
+};
+
 /// Writes the remote states to the ports that a view reads. Runs in the view group, before the view.
 class RemoteSource final : public Module {
  public:
@@ -36,14 +50,17 @@ class RemoteSource final : public Module {
     // the picture forgets the states that a frozen wall shows, as new ones arrive
     if (cave_ == nullptr || !cave_->frozen())
       picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
-    if (view_ != nullptr) view_->setBanner(picture_.line(), picture_.alarm());
+    if (view_ != nullptr) view_->setBanner(picture_.line() + remark_, picture_.alarm());
   }
+  /// What the banner says besides.
+  void setRemark(std::string remark) { remark_ = std::move(remark); }
   const ObjectState& objects() const { return objects_.value; }
 
  private:
   RemotePicture& picture_;
   View*& view_;
   const Cave* const cave_;
+  std::string remark_;
   Out<ObjectState> objects_{*this, "object_state"};
   Out<DeviceState> device_{*this, "device_state"};
   Out<ContactExchange> contact_{*this, "contact_exchange"};
@@ -54,8 +71,13 @@ class RemoteSource final : public Module {
 std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::RunInfo& run) {
   Diagnostics diagnostics;
   const bool own = !settings.scene.empty();
-  Scene scene = own ? loadScene(settings.scene, {}, diagnostics)
-                    : parseScene(run.scene_xml, "scene '" + printable(run.scene_name) + "'", ".", {}, diagnostics);
+  const auto sent = [&] {
+    return parseScene(run.scene_xml, "scene '" + printable(run.scene_name) + "'", ".", {}, diagnostics);
+  };
+  Scene scene = own ? loadScene(settings.scene, {}, diagnostics) : sent();
+  // a guide's goals are those of the run, whatever has become of the viewer's file
+  if (own && settings.guide)
+    if (Scene of_run = sent(); of_run.bodies.size() == scene.bodies.size()) scene.assembly = of_run.assembly;
   if (!own) bus::takeFromMeshStore(scene, run, settings.meshes, diagnostics);
   World world;
   if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
@@ -85,12 +107,19 @@ class Viewer {
       cave.max_rate = world_->scene.rates.view;
       cave_ = std::make_unique<Cave>(cave, settings.bus);
     }
+    if (settings.guide) {
+      guide_ = std::make_unique<GuideThread>(world_, run, settings.bus);
+      guidance_ = guide_->now().guidance;
+    }
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
     auto source = std::make_unique<RemoteSource>(picture_, view_, cave_.get());
     source_ = source.get();
     builder.add(std::move(source));
-    if (world_->scene.assembly) builder.add(std::make_unique<GuideModule>(world_));
+    if (guide_ != nullptr)
+      builder.add(std::make_unique<GuideSource>(guidance_));
+    else if (world_->scene.assembly)
+      builder.add(std::make_unique<GuideModule>(world_));
     auto view = makeView(world_, optionsOf(settings));
     view_ = view.get();
     if (cave_ != nullptr) view_->drawOnWall(*cave_->canvas());
@@ -109,6 +138,7 @@ class Viewer {
     while (!done(begin)) {
       reader_.take(picture_);
       picture_.advance(monotonicNs());
+      if (guide_ != nullptr && !heedGuide()) break;
       if (cave_ == nullptr || cave_->next(picture_, monotonicNs())) {
         tick.time = picture_.time();
         graph_.step(RateGroup::kView, tick);
@@ -124,12 +154,27 @@ class Viewer {
       if (picture_.state() != RemotePicture::State::kEnded) sleepUntilNs(next);
     }
     graph_.stop(RateGroup::kView);
+    guide_.reset();
     if (!settings_.quiet) say(true);
     if (cave_ != nullptr) std::fprintf(stderr, "%s\n", cave_->summary().c_str());
     return verdict();
   }
 
  private:
+  /// What the guide tells is drawn, and the window's undos go to it. False: another guide leads the run.
+  bool heedGuide() {
+    using Standing = bus::RemoteGuide::Standing;
+    const bus::RemoteGuide::Now now = guide_->now();
+    guidance_ = now.guidance;
+    const std::uint32_t wanted = view_ != nullptr ? view_->undosWanted() : 0;
+    for (; undone_ != wanted; ++undone_) guide_->undo();
+    remark_ = now.standing == Standing::kLeads ? "; guides the run" : "; waits to guide";
+    if (now.refusal != bus::OrderRefusal::kNone && now.standing != Standing::kOtherLeads)
+      remark_ += std::string("; an order was refused: ") + bus::toString(now.refusal);
+    if (source_ != nullptr) source_->setRemark(remark_);
+    other_leads_ = now.standing == Standing::kOtherLeads;
+    return !other_leads_;
+  }
   bool done(std::int64_t begin) {
     if (terminal::Interruption::came() || (view_ != nullptr && view_->wantsStop())) return true;
     const double shown = static_cast<double>(monotonicNs() - begin) * 1e-9;
@@ -138,12 +183,19 @@ class Viewer {
   }
   void say(bool last = false) const {
     const bool terminal = isatty(STDERR_FILENO) != 0;
-    std::string line = picture_.line();
+    std::string line = picture_.line() + remark_;
     if (cave_ != nullptr) line += "; " + cave_->line(monotonicNs());
     std::fprintf(stderr, terminal ? "\r\033[K%8.3f s  %s%s" : "%8.3f s  %s%s\n", picture_.time(), line.c_str(),
                  terminal && last ? "\n" : "");
   }
   int verdict() const {
+    if (other_leads_) {
+      std::fprintf(stderr,
+                   "--guide: error[E%d]: another viewer guides this run, and a run follows one guide\n"
+                   "  help: show it without --guide, or end the other viewer first\n",
+                   kOtherGuideLeads);
+      return kExitBadInput;
+    }
     if (picture_.wrongScene()) return kExitBadInput;
     if (view_ != nullptr) {
       const View::Screenshot shot = view_->screenshot();
@@ -159,7 +211,12 @@ class Viewer {
   RemotePicture picture_;
   View* view_ = nullptr;  // owned by the graph, as the source
   RemoteSource* source_ = nullptr;
-  std::unique_ptr<Cave> cave_;  // the view draws on its canvas
+  std::unique_ptr<Cave> cave_;          // the view draws on its canvas
+  std::unique_ptr<GuideThread> guide_;  // null: this viewer does not guide
+  Guidance guidance_;
+  std::string remark_;
+  std::uint32_t undone_ = 0;
+  bool other_leads_ = false;
   Graph graph_;
   int drawn_end_ = 0;
 };

@@ -20,6 +20,7 @@ struct ViewerSettings {
   std::vector<std::string> show;  ///< as RunOptions
   PictureOptions picture;
   bool quiet = false;
+  bool guide = false;  ///< this viewer guides the assembly of the run
   CaveSettings cave;
 };
 

@@ -50,6 +50,10 @@ class ContentReader {
       auto all = rows<FrameRow>(table, {}, static_cast<bool>(take.frame));
       if (take.frame) take.frame(table, std::move(all));
     }
+    if (stored_.orders) {
+      auto all = rows<OrderRow>(*stored_.orders, orderRules(stored_.scene_bodies), static_cast<bool>(take.order));
+      if (take.order) take.order(*stored_.orders, std::move(all));
+    }
     for (std::size_t g = 0; g < stored_.schedule.size(); ++g)
       contents_.schedule[g] = rows<ScheduleRow>(stored_.schedule[g], scheduleRules(), true);
     if (stored_.complete) compareLengths();
@@ -183,6 +187,7 @@ class ContentReader {
     for (const StoredTable& table : stored_.bodies) compare(table);
     for (const StoredTable& table : stored_.tools) compare(table);
     for (const StoredTable& table : stored_.frames) compare(table);
+    if (stored_.orders) compare(*stored_.orders);
     if (wholeRun()) compare(stored_.schedule.front());
   }
 

@@ -18,13 +18,14 @@ struct Contents {
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 
-/// Callbacks that receive the rows of fingers, bodies, tools and frames, table by table, in order. Tables without a callback are only
+/// Callbacks that receive the rows of fingers, bodies, tools, frames and orders, table by table, in order. Tables without a callback are only
 /// checked. Do not use the rows before readContents has returned: a later row may be refused.
 struct TakeRows {
   std::function<void(const StoredTable&, std::vector<FingerRow>)> finger;
   std::function<void(const StoredTable&, std::vector<BodyRow>)> body;
   std::function<void(const StoredTable&, std::vector<ToolRow>)> tool;
   std::function<void(const StoredTable&, std::vector<FrameRow>)> frame;
+  std::function<void(const StoredTable&, std::vector<OrderRow>)> order;
 };
 
 /// Reads and checks a file against its schema and its checksum. In a complete run all tables have the same ticks; in a

@@ -88,6 +88,11 @@ Recording readRecording(const std::string& file) {
       recording.command[i].t_H_W[table.place] = Vec3(rows[i].t_command_W);
     }
   };
+  take.order = [&](const StoredTable&, const std::vector<OrderRow>& rows) {
+    recording.guided = true;
+    for (const OrderRow& row : rows)
+      if (row.goal != TakenOrders::kNone) recording.orders.push_back({row.tick, row.goal, row.body});
+  };
   Contents contents = readContents(file, take);
   takeHeader(contents.stored, recording);
   recording.checksum = contents.checksum;

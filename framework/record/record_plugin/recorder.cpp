@@ -61,6 +61,7 @@ FileRecorder::FileRecorder(std::shared_ptr<const World> world, const RunOptions&
       schedule_block_(kBlockRows),
       flushed_at_(std::chrono::steady_clock::now()) {
   if (layout_.frames > 0) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
+  if (layout_.orders) ordered_.emplace(*this, kTakenOrdersPort, In<TakenOrders>::Optional{});
   if (options.bus_commands) commanded_.emplace(*this, "surface_settings", In<SurfaceSettings>::Optional{});
   startWriter();
 }
@@ -124,6 +125,7 @@ void FileRecorder::fillRow(const Tick& tick) noexcept {
   for (std::size_t b = 0; b < layout_.bodies; ++b) fillBody(b, tick);
   for (std::size_t t = 0; t < layout_.tools.size(); ++t) fillTool(t, tick);
   for (std::size_t n = 0; n < layout_.frames; ++n) fillFrame(n, tick);
+  if (layout_.orders) fillOrder(tick);
 }
 
 void FileRecorder::fillFinger(std::size_t finger, const Tick& tick) noexcept {
@@ -176,6 +178,17 @@ void FileRecorder::fillFrame(std::size_t frame, const Tick& tick) noexcept {
     row.refusals = now.refusals;
   }
   put(layout_.frameOffset(frame), row);
+}
+
+void FileRecorder::fillOrder(const Tick& tick) noexcept {
+  const TakenOrders::Order order = orders_.next(ordered_->value());
+  OrderRow row;
+  row.index = tick.index;
+  row.time = tick.time;
+  row.tick = order.tick;
+  row.goal = order.goal;
+  row.body = order.body;
+  put(layout_.orderOffset(), row);
 }
 
 void FileRecorder::fillBody(std::size_t slot, const Tick& tick) noexcept {

@@ -14,6 +14,7 @@
 #include "framework/record/record_plugin/row_sink.h"
 #include "framework/record/recording.h"
 #include "framework/scene/frame_state.h"
+#include "framework/scene/guide_orders.h"
 #include "framework/scene/surface_change.h"
 #include "framework/scene/surface_settings.h"
 
@@ -54,6 +55,7 @@ class FileRecorder final : public Recorder {
   void fillBody(std::size_t slot, const Tick& tick) noexcept;
   void fillTool(std::size_t slot, const Tick& tick) noexcept;
   void fillFrame(std::size_t frame, const Tick& tick) noexcept;
+  void fillOrder(const Tick& tick) noexcept;
   template <class Row>
   void put(std::size_t offset, const Row& row) noexcept;
   void hurryWriter() noexcept;
@@ -81,6 +83,8 @@ class FileRecorder final : public Recorder {
   std::optional<In<FrameState>> frames_;          // only when the rig has frames
   std::optional<In<SurfaceSettings>> commanded_;  // only when the run takes commands
   SettingsTaker commands_;
+  std::optional<In<TakenOrders>> ordered_;  // only when the guide is in a viewer
+  OrderTaker orders_;
 
   std::shared_ptr<const World> world_;
   WriterSettings settings_;

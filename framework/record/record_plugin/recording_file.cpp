@@ -100,6 +100,7 @@ RowLayout layoutOf(const World& world, const RecordedDevices& devices) {
                                                          [](const Body& body) { return !body.fixed; }));
   layout.tools = devices.tools;
   layout.frames = devices.frames.size();
+  layout.orders = devices.guided;
   return layout;
 }
 
@@ -139,16 +140,18 @@ void RecordingFile::create(const World& world, const RunOptions& options, const 
     h5::writeAttribute(tables_.back().dataset, "body", std::uint64_t{b});
   }
   if (layout_.frames > 0) version = kFramesSince;
+  if (layout_.orders) version = kGuideSince;
   if (version >= kToolsSince) h5::group(file_, "haptic/tools");
   for (const std::size_t f : layout_.tools) {
     tables_.push_back(createTable("haptic/tools", linkName(world.scene.devices[f].role), toolTable()));
     h5::writeAttribute(tables_.back().dataset, "tool", std::uint64_t{f});
   }
-  if (layout_.frames > 0) h5::group(file_, "haptic/frames");
+  if (version >= kFramesSince) h5::group(file_, "haptic/frames");
   for (std::size_t n = 0; n < layout_.frames; ++n) {
     tables_.push_back(createTable("haptic/frames", linkName(devices.frames[n]), frameTable()));
     h5::writeAttribute(tables_.back().dataset, "frame", std::uint64_t{n});
   }
+  if (layout_.orders) tables_.push_back(createTable("haptic", "guide", orderTable()));
   for (int g = 0; g < kScheduledGroupCount; ++g) {
     schedule_.push_back(createTable("schedule", toString(static_cast<RateGroup>(g)), scheduleTable()));
     // with room for the names, so that they change no place in the file when they come

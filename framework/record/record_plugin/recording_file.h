@@ -15,7 +15,7 @@ namespace presa::record {
 /// Version of the file layout; a reader refuses a higher one. A file without what a
 /// version added has the version before.
 inline constexpr std::uint64_t kFormatVersion =
-    10;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools; 9: phases; 10: frames
+    11;  // 2: made_up in the schedule; 3: surfaces_changed, 4: rearms, 5: commanded in the ticks; 6: sha256; 7: inputs; 8: tools; 9: phases; 10: frames; 11: guide
 /// First version with haptic/tools.
 inline constexpr std::uint64_t kToolsSince = 8;
 /// Attribute of a finger's table, since format 9: the names of its phases, one a line.
@@ -23,6 +23,8 @@ inline constexpr const char* kPhasesAttribute = "phases";
 inline constexpr std::uint64_t kPhasesSince = 9;
 /// First version with haptic/frames.
 inline constexpr std::uint64_t kFramesSince = 10;
+/// First version with haptic/guide, of a run whose guide was in a viewer.
+inline constexpr std::uint64_t kGuideSince = 11;
 inline constexpr const char* kFormatName = "presa-recording";
 /// Rows per chunk of the file and per write.
 inline constexpr std::size_t kBlockRows = 1024;
@@ -79,7 +81,8 @@ class RecordingFile final : public RowSink {
   RowLayout layout_;
   std::uint64_t faults_ = 0;
   h5::Handle file_;
-  std::vector<TableFile> tables_;    ///< as RowLayout: the ticks, each finger, each free body, each tool
+  std::vector<TableFile>
+      tables_;  ///< as RowLayout: the ticks, each finger, each free body, each tool, each frame, the guide
   std::vector<TableFile> schedule_;  ///< by RateGroup
   std::vector<std::byte> gathered_;
   hsize_t reserved_ = 0;  ///< bytes of the file with reserved space

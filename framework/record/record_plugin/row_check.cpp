@@ -6,6 +6,7 @@
 
 #include "framework/core/state/contact_exchange.h"
 #include "framework/record/record_plugin/stored.h"
+#include "framework/scene/guide_orders.h"
 #include "framework/scene/surface_settings.h"
 
 namespace presa::record {
@@ -59,6 +60,11 @@ std::vector<Rule> fingerRules(std::uint64_t scene_bodies) {
           {"valid", 0, 3},
           {"mode", 0, static_cast<std::int64_t>(ContactMode::kSlip)},
           {"body", -1, static_cast<std::int64_t>(scene_bodies) - 1}};
+}
+
+std::vector<Rule> orderRules(std::uint64_t scene_bodies) {
+  return {{"goal", TakenOrders::kUndo, std::numeric_limits<std::int32_t>::max()},
+          {"body", kNoBody, static_cast<std::int64_t>(scene_bodies) - 1}};
 }
 
 std::vector<Rule> scheduleRules() { return {{"made_up", 0, 7}}; }

@@ -18,6 +18,7 @@ struct Rule {
 /// Rules for a recording with this many fingers and scene bodies. Measured values have no rules.
 std::vector<Rule> tickRules(std::uint64_t fingers);
 std::vector<Rule> fingerRules(std::uint64_t scene_bodies);
+std::vector<Rule> orderRules(std::uint64_t scene_bodies);
 std::vector<Rule> scheduleRules();
 
 /// Applies rules to the rows of one table and remembers the first violation of each.

@@ -116,6 +116,17 @@ Table frameTable() {
   return {sizeof(R), c.take()};
 }
 
+Table orderTable() {
+  using R = OrderRow;
+  Columns c;
+  c.key(offsetof(R, index), offsetof(R, time))
+      .add("tick", offsetof(R, tick), Cell::kU64, "1", "number of the collision tick that took the order")
+      .add("goal", offsetof(R, goal), Cell::kI32, "1",
+           "goal that is to pull a body, counted from 0 in scene order; -1: no order, -2: an undo")
+      .add("body", offsetof(R, body), Cell::kI32, "1", "that body, counted from 0 in scene order; -1: none any more");
+  return {sizeof(R), c.take()};
+}
+
 Table subset(const Table& table, const std::vector<std::string>& columns) {
   Table part{table.row_bytes, {}};
   for (const Column& column : table.columns) {

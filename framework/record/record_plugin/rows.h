@@ -75,6 +75,15 @@ struct FrameRow {
   std::uint32_t none = 0;  // fills the word: rows are written byte by byte
 };
 
+/// /haptic/guide, for a run whose guide is in a viewer
+struct OrderRow {
+  std::uint64_t index = 0;
+  double time = 0;
+  std::uint64_t tick = 0;  // of the collision group
+  std::int32_t goal = -1;  // TakenOrders::kNone
+  std::int32_t body = -1;
+};
+
 // rows pass through the ring as 64-bit words and are written byte by byte, so they must not contain padding
 template <class Row>
 inline constexpr bool kPacked = std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(std::uint64_t) == 0;
@@ -82,6 +91,7 @@ static_assert(kPacked<TickRow> && sizeof(TickRow) == 9 * 8 + 6 * 4);
 static_assert(kPacked<FingerRow> && sizeof(FingerRow) == (2 + 3 * 9 + 2) * 8 + 4 * 4);
 static_assert(kPacked<BodyRow> && sizeof(BodyRow) == (2 + 13) * 8);
 static_assert(kPacked<ToolRow> && sizeof(ToolRow) == (2 + 13) * 8);
+static_assert(kPacked<OrderRow> && sizeof(OrderRow) == 3 * 8 + 2 * 4);
 static_assert(kPacked<FrameRow> && sizeof(FrameRow) == (2 + 8) * 8 + 4 * 4);
 
 enum class Cell { kU64, kF64, kI32, kU32 };
@@ -112,19 +122,22 @@ Table fingerTable();
 Table bodyTable();
 Table toolTable();
 Table frameTable();
+Table orderTable();
 
-/// Layout of a complete row in the ring: the tick, then each finger, each free body, each oriented tool, and each frame
-/// of the rig.
+/// Layout of a complete row in the ring: the tick, then each finger, each free body, each oriented tool, each frame of
+/// the rig, and what a guide in a viewer ordered.
 struct RowLayout {
   std::size_t fingers = 0;
   std::size_t bodies = 0;
   std::vector<std::size_t> tools;  ///< their fingers
   std::size_t frames = 0;
+  bool orders = false;
   std::size_t fingerOffset(std::size_t finger) const { return sizeof(TickRow) + finger * sizeof(FingerRow); }
   std::size_t bodyOffset(std::size_t body) const { return fingerOffset(fingers) + body * sizeof(BodyRow); }
   std::size_t toolOffset(std::size_t tool) const { return bodyOffset(bodies) + tool * sizeof(ToolRow); }
   std::size_t frameOffset(std::size_t frame) const { return toolOffset(tools.size()) + frame * sizeof(FrameRow); }
-  std::size_t bytes() const { return frameOffset(frames); }
+  std::size_t orderOffset() const { return frameOffset(frames); }
+  std::size_t bytes() const { return orderOffset() + (orders ? sizeof(OrderRow) : 0); }
   std::size_t words() const { return bytes() / sizeof(std::uint64_t); }
 };
 

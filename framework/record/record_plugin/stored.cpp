@@ -55,6 +55,7 @@ class Structure {
       if (stored_.version >= kToolsSince)
         group("haptic/tools", "tool", toolTable(), stored_.fingers.size(), stored_.tools);
       if (stored_.version >= kFramesSince) group("haptic/frames", "frame", frameTable(), kMaxFrames, stored_.frames);
+      if (stored_.version >= kGuideSince) table("haptic/guide", orderTable(), stored_.orders.emplace());
     }
     if (!look_.isGroup("schedule")) return;
     if (stored_.version >= kInputsSince) stored_.inputs.emplace();

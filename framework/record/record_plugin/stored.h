@@ -40,10 +40,11 @@ struct StoredRecording {
   double force_share = 1;
   std::uint64_t scene_bodies = 0;
   StoredTable ticks;
-  std::vector<StoredTable> fingers;  ///< in the order of the roles
-  std::vector<StoredTable> bodies;   ///< in the order of the scene
-  std::vector<StoredTable> tools;    ///< in the order of the roles; nothing before format 8
-  std::vector<StoredTable> frames;   ///< in the order of the rig; nothing before format 10
+  std::vector<StoredTable> fingers;     ///< in the order of the roles
+  std::vector<StoredTable> bodies;      ///< in the order of the scene
+  std::vector<StoredTable> tools;       ///< in the order of the roles; nothing before format 8
+  std::vector<StoredTable> frames;      ///< in the order of the rig; nothing before format 10
+  std::optional<StoredTable> orders{};  ///< nothing before format 11
   std::array<StoredTable, kScheduledGroupCount> schedule;
   std::optional<ScheduleInputs> inputs;  ///< of the schedule's rows; nothing before format 7
 };

@@ -30,15 +30,28 @@ TEST_P(Faults, KeepTheirBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults().size()));
 
+constexpr double kStall = 0.03;  // of a supervisor that is late by itself, beyond what is promised [s]
+
+/// A run in which the machine ran nobody for as long as the stall exceeds the bound can tell nothing of the supervisor: it
+/// is made again.
+Outcome telling(const Fault& fault) {
+  Outcome outcome;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    RandomStream random(1000, fault.name, run);
+    outcome = fault.run(random);
+    if (outcome.held_up_detection < kStall - kPromised) break;
+  }
+  return outcome;
+}
+
 // A supervisor that is late by itself is not excused: its witness was not held up.
 TEST(ProcessFaults, AStallingSupervisorBreaksItsRow) {
   if (!realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
-  for (const Fault& row : processFaults(0.03)) {
+  for (const Fault& row : processFaults(kStall)) {
     const Fault fault = tested(row);
-    RandomStream random(1000, fault.name, 0);
-    const Outcome outcome = fault.run(random);
+    const Outcome outcome = telling(fault);
     EXPECT_EQ(brokenBy(fault, outcome), "detected too late") << fault.name << ": " << outcome.detection;
-    EXPECT_GT(outcome.detection, 0.03);
+    EXPECT_GT(outcome.detection, kStall);
   }
 }
 

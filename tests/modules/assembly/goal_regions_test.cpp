@@ -52,7 +52,7 @@ class GoalRegionsTest : public testing::Test {
     for (int i = 0; i < steps; ++i) regions->step(objects, kPeriod);
   }
   Status status(std::size_t goal) const { return regions->state().goals[goal].status; }
-  static constexpr int kArrives = static_cast<int>(GoalRegions::kSettle / kPeriod) + 1;
+  static constexpr int kArrives = static_cast<int>(GoalPulls::kSettle / kPeriod) + 1;
 
   Assembly assembly;
   ObjectState objects;
@@ -71,7 +71,7 @@ TEST_F(GoalRegionsTest, DrawsWhatIsInReachOfDistanceAndAngle) {
   ASSERT_EQ(regions->snapConstraints().bodies.size(), 1);
   EXPECT_EQ(regions->snapConstraints().bodies[0].body, 0);
   EXPECT_FALSE(regions->snapConstraints().bodies[0].fixed);
-  EXPECT_NEAR(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81 * kPeriod / GoalRegions::kRise, 1e-12)
+  EXPECT_NEAR(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81 * kPeriod / GoalPulls::kRise, 1e-12)
       << "rises softly";
   step(40);
   EXPECT_EQ(regions->snapConstraints().bodies[0].max_acceleration, 1.5 * 9.81);
@@ -208,7 +208,7 @@ TEST_F(GoalRegionsTest, WhatRollsIsSlowedAndNothingElse) {
   ASSERT_EQ(regions->snapConstraints().bodies.size(), 1);
   EXPECT_EQ(regions->snapConstraints().bodies[0].body, 0);
   EXPECT_EQ(regions->snapConstraints().bodies[0].speed, 0);
-  EXPECT_EQ(regions->snapConstraints().bodies[0].max_acceleration, GoalRegions::kGrass);
+  EXPECT_EQ(regions->snapConstraints().bodies[0].max_acceleration, GoalPulls::kGrass);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "framework/bus/bus_keys.h"
+#include "framework/bus/guide_link.h"
 #include "framework/bus/state_bus.h"
 #include "framework/core/schedule/clock.h"
 #include "tests/modules/bus_dds/viewer_process.h"
@@ -77,11 +78,24 @@ TEST_F(BusKeys, LetNoViewerPublish) {
   }
 }
 
+// Nor does it allow guiding; that of a guide does.
+TEST_F(BusKeys, LetOnlyAGuideOrder) {
+  try {
+    openOrderSender(as("ours/viewer"));
+    FAIL() << "a viewer may order";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("error[E720]"));
+  }
+  EXPECT_NE(openOrderSender(as("ours/guide")), nullptr);
+  EXPECT_NE(openOrderPost(as("ours/run")), nullptr);
+}
+
 TEST_F(BusKeys, AreNeededForCommandsOnLan) {
   const Said refused = say({.network = "lan"}, {"run", kCube, "--lockstep", "--for", "0.1", "--bus-commands"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.text, HasSubstr("error[E752]"));
   EXPECT_THROW(openPost({.network = "lan:lo"}), InputError);
+  EXPECT_THROW(openOrderPost({.network = "lan:lo"}), InputError);
 }
 
 TEST_F(BusKeys, AreCheckedBeforeTheyAreUsed) {
@@ -112,7 +126,7 @@ TEST_F(BusKeys, AreNeverWrittenOverAndNobodyElseReadsThem) {
   const Said again = say({.network = ""}, {"bus", "keys", root() / "ours"});
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.text, HasSubstr("error[E754]"));
-  for (const char* part : {"authority", "run", "viewer", "commander"}) {
+  for (const char* part : {"authority", "run", "viewer", "guide", "commander"}) {
     struct stat status {};
     ASSERT_EQ(stat((root() / "ours" / part / "key.pem").c_str(), &status), 0) << part;
     EXPECT_EQ(status.st_mode & 077U, 0u) << part;

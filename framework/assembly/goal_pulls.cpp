@@ -1,10 +1,12 @@
-#include "modules/assembly/goal_regions.h"
+#include "framework/assembly/goal_pulls.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace presa::assembly {
+#include "framework/scene/goal_pose.h"
+
+namespace presa {
 namespace {
 
 using Status = GoalState::Status;
@@ -16,9 +18,9 @@ constexpr double kCaught = 2, kInVain = 8;  // without progress: when a body is 
 constexpr double kProgress = 0.005;         // smallest approach that counts as progress [m]
 constexpr double kClear = 0.01;             // height below the target at which it is lifted first [m]
 constexpr double kFar = 0.05;  // farther away, a carried body moves at its distance per second instead of 10 mm/s [m]
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kPlaceDegree = std::numbers::pi / 180;
 
-std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::size_t slotOf(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 nearestInside(const Assembly::Workspace& workspace, const Vec3& p, double part) {
   const Vec3 half = part * workspace.size / 2;
@@ -27,83 +29,38 @@ Vec3 nearestInside(const Assembly::Workspace& workspace, const Vec3& p, double p
 
 }  // namespace
 
-GoalRegions::GoalRegions(const Assembly& assembly, std::size_t bodies)
+GoalPulls::GoalPulls(const Assembly& assembly, std::size_t bodies)
     : assembly_(assembly),
       belongs_(bodies),
-      goal_of_(bodies, kNoGoal),
-      refused_(bodies, kNoGoal),
+      busy_(bodies),
       placed_(assembly.goals.size()),
       pull_time_(assembly.goals.size()),
       settled_(assembly.goals.size()),
       returning_(bodies),
       nearest_(bodies),
       carried_(bodies) {
-  std::size_t pairs = 0;
   for (const AssemblyGoal& goal : assembly.goals) {
-    pairs += goal.bodies.size();
     for (const std::size_t body : goal.bodies) belongs_[body] = 1;
   }
-  candidates_.reserve(pairs);
   order_.reserve(assembly.goals.size());
   state_.goals.resize(assembly.goals.size());
   snap_constraints_.bodies.reserve(static_cast<std::size_t>(std::ranges::count(belongs_, 1)));  // each once
 }
 
-std::int32_t GoalRegions::missing(std::size_t goal) const {
-  for (const std::size_t before : assembly_.goals[goal].after) {
-    if (state_.goals[before].status != Status::kFilled) return static_cast<std::int32_t>(before);
-  }
-  return kNoGoal;
-}
-
-// Lists every body within reach of a goal that it fits. A body that is already pulled is released a little farther away
-// (hysteresis).
-void GoalRegions::findCandidates(const ObjectState& objects) {
-  candidates_.clear();
-  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
-    if (state_.goals[g].status == Status::kFilled) continue;
-    const AssemblyGoal& goal = assembly_.goals[g];
-    for (const std::size_t body : goal.bodies) {
-      const std::int32_t there = goal_of_[body];
-      if (there != kNoGoal && state_.goals[index(there)].status == Status::kFilled) continue;
-      const Pose& X_WB = objects.bodies[body].X_WB_end;
-      const Pose X_WG = nearestTurn(goal.X_WB, goal.fold, X_WB.q);
-      const PoseDifference difference = poseDifference(X_WG, X_WB);
-      const double slack = there == static_cast<std::int32_t>(g) ? kLeave : 1;
-      const bool near = difference.distance < slack * assembly_.snap_distance &&
-                        difference.angle < slack * assembly_.snap_angle_deg * kDegree;
-      if (refused_[body] == static_cast<std::int32_t>(g)) {
-        if (!near) refused_[body] = kNoGoal;
-        continue;
-      }
-      if (near) candidates_.push_back({g, body, difference, X_WG});
-    }
-  }
-}
-
-// Nearest pair first; a goal pulls one body, and a body is pulled to one goal.
-void GoalRegions::assign() {
-  std::ranges::stable_sort(candidates_, {}, [](const Candidate& c) { return c.difference.distance; });
-  for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
+void GoalPulls::take(const ObjectState& objects, const std::vector<GoalState>& chosen) {
+  std::ranges::fill(busy_, 0);
+  for (std::size_t g = 0; g < state_.goals.size(); ++g) {
     GoalState& goal = state_.goals[g];
-    if (goal.status == Status::kFilled) continue;
-    if (goal.body != kNoBody && goal_of_[index(goal.body)] == static_cast<std::int32_t>(g))
-      goal_of_[index(goal.body)] = kNoGoal;
-    goal = {};
-  }
-  for (const Candidate& candidate : candidates_) {
-    GoalState& goal = state_.goals[candidate.goal];
-    if (goal.body != kNoBody || goal_of_[candidate.body] != kNoGoal) continue;
-    goal.body = static_cast<std::int32_t>(candidate.body);
-    goal.missing = missing(candidate.goal);
-    goal.status = goal.missing == kNoGoal ? Status::kDrawing : Status::kBlocked;
-    if (goal.status == Status::kBlocked) continue;
-    goal_of_[candidate.body] = static_cast<std::int32_t>(candidate.goal);
-    placed_[candidate.goal] = candidate.X_WB;
+    if (goal.status != Status::kFilled) goal = chosen[g];
+    if (goal.status != Status::kDrawing && goal.status != Status::kFilled) continue;
+    busy_[slotOf(goal.body)] = 1;
+    if (goal.status != Status::kDrawing) continue;
+    const AssemblyGoal& place = assembly_.goals[g];
+    placed_[g] = nearestTurn(place.X_WB, place.fold, objects.bodies[slotOf(goal.body)].X_WB_end.q);
   }
 }
 
-void GoalRegions::settle(const ObjectState& objects, double period) {
+void GoalPulls::settle(const ObjectState& objects, double period) {
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
     GoalState& goal = state_.goals[g];
     if (goal.status == Status::kFilled) continue;
@@ -112,10 +69,10 @@ void GoalRegions::settle(const ObjectState& objects, double period) {
       continue;
     }
     pull_time_[g] += period;
-    const BodyMotion& body = objects.bodies[index(goal.body)];
+    const BodyMotion& body = objects.bodies[slotOf(goal.body)];
     const PoseDifference difference = poseDifference(placed_[g], body.X_WB_end);
     const bool there = difference.distance < assembly_.tolerance &&
-                       difference.angle < assembly_.tolerance_angle_deg * kDegree && body.v_WB.norm() < kSlow &&
+                       difference.angle < assembly_.tolerance_angle_deg * kPlaceDegree && body.v_WB.norm() < kSlow &&
                        body.w_WB.norm() < kSlowTurn;
     settled_[g] = there ? settled_[g] + period : 0;
     if (settled_[g] < kSettle) continue;
@@ -126,8 +83,8 @@ void GoalRegions::settle(const ObjectState& objects, double period) {
   }
 }
 
-void GoalRegions::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights,
-                                    double speed) {
+void GoalPulls::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fixed, bool turns, double weights,
+                                  double speed) {
   snap_constraints_.bodies.push_back({.body = static_cast<std::int32_t>(body),
                                       .fixed = fixed,
                                       .turns = turns,
@@ -139,11 +96,11 @@ void GoalRegions::addSnapConstraint(std::size_t body, const Pose& X_WB, bool fix
 
 // Bodies outside the workspace are pulled back. Without progress, for example at the ground's edge or under it, they
 // are carried.
-void GoalRegions::bringBack(const ObjectState& objects, double period) {
+void GoalPulls::bringBack(const ObjectState& objects, double period) {
   state_.brought_back = 0;
   if (!assembly_.workspace) return;
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
-    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal) continue;
+    if (belongs_[body] == 0 || busy_[body] != 0) continue;
     const Pose& X_WB = objects.bodies[body].X_WB_end;
     const Vec3& p = X_WB.p;
     const auto is_inside = [&](double part) { return nearestInside(*assembly_.workspace, p, part) == p; };
@@ -169,9 +126,9 @@ void GoalRegions::bringBack(const ObjectState& objects, double period) {
   }
 }
 
-void GoalRegions::slowDown(const ObjectState& objects) {
+void GoalPulls::slowDown(const ObjectState& objects) {
   for (std::size_t body = 0; body < belongs_.size(); ++body) {
-    if (belongs_[body] == 0 || goal_of_[body] != kNoGoal || returning_[body] > 0) continue;
+    if (belongs_[body] == 0 || busy_[body] != 0 || returning_[body] > 0) continue;
     // sleeping bodies stay asleep; awake ones are held even at rest, otherwise they would roll on from one step's push
     if (objects.bodies[body].asleep || objects.bodies[body].v_WB.norm() > kRollsTo) continue;
     snap_constraints_.bodies.push_back({.body = static_cast<std::int32_t>(body),
@@ -181,33 +138,31 @@ void GoalRegions::slowDown(const ObjectState& objects) {
   }
 }
 
-void GoalRegions::step(const ObjectState& objects, double period) {
-  findCandidates(objects);
-  assign();
+void GoalPulls::step(const ObjectState& objects, const std::vector<GoalState>& chosen, double period) {
+  take(objects, chosen);
   settle(objects, period);
   snap_constraints_.bodies.clear();
   for (std::size_t g = 0; g < assembly_.goals.size(); ++g) {
     const GoalState& goal = state_.goals[g];
-    if (goal.status == Status::kFilled) addSnapConstraint(index(goal.body), placed_[g], true, true, 0, 0);
+    if (goal.status == Status::kFilled) addSnapConstraint(slotOf(goal.body), placed_[g], true, true, 0, 0);
     if (goal.status == Status::kDrawing)
-      addSnapConstraint(index(goal.body), placed_[g], false, true,
+      addSnapConstraint(slotOf(goal.body), placed_[g], false, true,
                         assembly_.snap_force * std::min(1.0, pull_time_[g] / kRise), kSpeed);
   }
   bringBack(objects, period);
   slowDown(objects);
 }
 
-void GoalRegions::undo() {
-  if (order_.empty()) return;
+GoalPulls::Released GoalPulls::undo() {
+  if (order_.empty()) return {};
   const std::size_t last = order_.back();
   order_.pop_back();
-  GoalState& goal = state_.goals[last];
-  goal_of_[index(goal.body)] = kNoGoal;
-  refused_[index(goal.body)] = static_cast<std::int32_t>(last);
-  goal = {};
+  const Released released{static_cast<std::int32_t>(last), state_.goals[last].body};
+  state_.goals[last] = {};
   pull_time_[last] = settled_[last] = 0;
   --state_.filled;
   state_.last_filled = order_.empty() ? kNoGoal : static_cast<std::int32_t>(order_.back());
+  return released;
 }
 
-}  // namespace presa::assembly
+}  // namespace presa
