@@ -114,7 +114,8 @@ void excuse(const ProbeLog& log, const Witness& witness, const Sent& sent, const
       1e3 * outcome.detection, 1e3 * outcome.zero, 1e3 * (outcome.held_up_zero - sent.took), 1e3 * sent.took);
 }
 
-/// Whether the finger pressed without a break until the signal came. On a machine that holds up a thread of the program the
+/// Whether the finger pressed without a break until the signal came. On a machine that holds up a thread of the program
+/// the
 /// output stage may have taken the force away before: then there is no grasp to fail, or the supervisor has already had
 /// the moment for which a stall is meant.
 bool pressedAt(const ProbeLog& log, std::int64_t at_ns) {
@@ -127,7 +128,8 @@ bool pressedAt(const ProbeLog& log, std::int64_t at_ns) {
   return pressed;
 }
 
-/// Runs `fault` on a program that presses; none if it pressed no more when the fault came. The program is a child of this
+/// Runs `fault` on a program that presses; none if it pressed no more when the fault came. The program is a child of
+/// this
 /// one in half of the runs, and `presa` itself in the others. A program that does not press is started again: nothing
 /// of it is judged here, and the report lists it.
 template <class Run>
