@@ -86,7 +86,8 @@ JointLog jointLogFor(const Scene& scene, double duration, double trace_rate) {
   return {scene, static_cast<std::size_t>(samples), static_cast<std::size_t>(std::min(stride, 1e9))};
 }
 
-/// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the hold.
+/// The phases of the first scripted device. Unless the user chose the time of the picture, it is the middle of the
+/// hold.
 void followScript(Loaded& loaded, std::vector<RunResult::Phase>& phases) {
   RunOptions& options = loaded.options;
   for (const auto& device : loaded.devices) {

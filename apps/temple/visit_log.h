@@ -13,7 +13,8 @@ namespace presa::temple {
 /// after every block that is placed or taken out. Neither holds personal data. Thread: main.
 class VisitLog {
  public:
-  /// Creates the folder. `base`: initial state of the visit; `guide`: where the guide runs, "beside" the dynamics or in a
+  /// Creates the folder. `base`: initial state of the visit; `guide`: where the guide runs, "beside" the dynamics or in
+  /// a
   /// "viewer". Throws std::system_error.
   VisitLog(const std::string& folder, KeptSession base, const Scene& scene, const std::string& language,
            const std::string& guide);

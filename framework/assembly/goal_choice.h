@@ -16,7 +16,8 @@ class GoalChoice {
  public:
   GoalChoice(const Assembly& assembly, std::size_t bodies);
 
-  /// `standing`: the state of each goal in the run, of which only filled goals count. A body that no longer stands where
+  /// `standing`: the state of each goal in the run, of which only filled goals count. A body that no longer stands
+  /// where
   /// it stood in the last step is left alone as after leave().
   void step(const ObjectState& objects, const std::vector<GoalState>& standing);
   /// The body is not pulled to that goal again before it has been out of reach.

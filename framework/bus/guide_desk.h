@@ -16,7 +16,8 @@ namespace presa::bus {
 
 /// The run's end of a guide in a viewer: follows one guide, checks its orders, and tells it the state of the assembly.
 /// The first guide that sends an order leads until it has been silent for kSilence; any other is refused. Orders that
-/// are wrong, late or too many have no effect and are counted; whether a body may be pulled at all is decided beside the
+/// are wrong, late or too many have no effect and are counted; whether a body may be pulled at all is decided beside
+/// the
 /// dynamics (modules/assembly). In lockstep, where nothing waits for the clock, each publication waits for the guide's
 /// order, so that the outcome does not depend on the machine.
 /// Thread: the bus group's, unless stated otherwise; in lockstep the single thread of the run.

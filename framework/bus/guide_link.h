@@ -8,7 +8,8 @@
 #include "framework/bus/samples.h"
 #include "framework/scene/scene.h"
 
-/// What a run and the guide of its assembly tell each other when the guide is in a viewer (GuideDesk, RemoteGuide), beside
+/// What a run and the guide of its assembly tell each other when the guide is in a viewer (GuideDesk, RemoteGuide),
+/// beside
 /// the state that every viewer reads. Both carry whole values, so that any message may be lost, doubled or late.
 namespace presa::bus {
 

@@ -14,7 +14,8 @@
 
 namespace presa::bus {
 
-/// The guide of an assembly in another process than the dynamics: chooses the bodies to be pulled (GoalChoice) and tells
+/// The guide of an assembly in another process than the dynamics: chooses the bodies to be pulled (GoalChoice) and
+/// tells
 /// its user what to do (AssemblyGuide) from each publication of the run, and sends an order back. Begins with the state
 /// as it is: bodies in place count as placed, pulls in progress go on. Thread: one, unless stated otherwise.
 class RemoteGuide {

@@ -8,7 +8,8 @@
 
 namespace presa {
 
-/// What a guide in another process has decided for a run, as far as the run's end of the bus has found it in order. Port
+/// What a guide in another process has decided for a run, as far as the run's end of the bus has found it in order.
+/// Port
 /// "guide_orders". Written by: bus thread (framework/bus/publisher), in a replay from the recording.
 struct GuideOrders {
   struct Draw {

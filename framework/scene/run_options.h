@@ -30,7 +30,8 @@ struct RunOptions {
   std::string record{};             ///< HDF5 path, may be empty
   bool overwrite = false;           ///< `record` may replace an existing file
   std::vector<std::string> show{};  ///< overlays to show or hide in the picture: "haptic", "no-cones"
-  /// The picture is for the participant of an experiment, and its window stays open for the next run of the process. The
+  /// The picture is for the participant of an experiment, and its window stays open for the next run of the process.
+  /// The
   /// screen is what the window keeps showing between the runs; without bodies and fingertips it is black.
   std::optional<ParticipantScreen> participant{};
   std::string video{};   ///< MP4 path, may be empty
@@ -44,7 +45,8 @@ struct RunOptions {
   std::optional<SimulatedPerson> person{};
   std::optional<BusSettings> bus{};  ///< takes precedence over rig and scene; network "none": no bus
   bool bus_commands = false;         ///< accept commands even if rig and scene do not
-  /// Where the guide of the scene's assembly runs: beside the dynamics, or in a viewer that sends its decisions over the
+  /// Where the guide of the scene's assembly runs: beside the dynamics, or in a viewer that sends its decisions over
+  /// the
   /// bus as commands.
   enum class Guide { kBeside, kViewer } guide = Guide::kBeside;
   PictureOptions picture{};

@@ -12,7 +12,8 @@ namespace presa::assembly {
 /// The assembly of a run whose guide is in a viewer: pulls what the guide orders, where that is possible, and nothing
 /// else. An order has an effect only for a body within reach of its goal, in its turn, and the pull begins at zero: no
 /// order, however wrong or late, makes a step in force. A pull that has begun ends as one that the run chose itself:
-/// with the body in place, or out of reach; also when the guide falls silent. In ports: object_state, guide_orders. Out:
+/// with the body in place, or out of reach; also when the guide falls silent. In ports: object_state, guide_orders.
+/// Out:
 /// attractions, assembly_state, taken_orders. Thread: collision.
 class OrderedAssembly final : public Module {
  public:

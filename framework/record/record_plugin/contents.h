@@ -18,7 +18,8 @@ struct Contents {
   std::array<std::vector<ScheduleRow>, kScheduledGroupCount> schedule;
 };
 
-/// Callbacks that receive the rows of fingers, bodies, tools, frames and orders, table by table, in order. Tables without a callback are only
+/// Callbacks that receive the rows of fingers, bodies, tools, frames and orders, table by table, in order. Tables
+/// without a callback are only
 /// checked. Do not use the rows before readContents has returned: a later row may be refused.
 struct TakeRows {
   std::function<void(const StoredTable&, std::vector<FingerRow>)> finger;

@@ -70,7 +70,8 @@ TEST(GuideInViewer, RebuildsTheFirstTaskAsTheRunsOwnGuide) {
   EXPECT_EQ(own_start.at("guide"), "beside");
   EXPECT_EQ(viewer_start.at("guide"), "viewer");
   ASSERT_EQ(remote.size(), beside.size()) << run_said << viewer_said;
-  // the guide looks at 60 Hz beside the dynamics, at each publication (5 ms) in the viewer; a decision waits for the next
+  // the guide looks at 60 Hz beside the dynamics, at each publication (5 ms) in the viewer; a decision waits for the
+  // next
   // collision tick (10 ms), the pull rests for one (10 ms), and the hands go on from each block placed
   constexpr double kEach = 1.0 / 60 + 0.005 + 0.01 + 0.01;
   int placed = 0;

@@ -32,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, Faults, testing::Range<std::size_t>(0, allFaults(
 
 constexpr double kStall = 0.03;  // of a supervisor that is late by itself, beyond what is promised [s]
 
-/// A run in which the machine ran nobody for as long as the stall exceeds the bound can tell nothing of the supervisor: it
+/// A run in which the machine ran nobody for as long as the stall exceeds the bound can tell nothing of the supervisor:
+/// it
 /// is made again.
 Outcome telling(const Fault& fault) {
   Outcome outcome;

@@ -108,7 +108,8 @@ struct GuidedRun {
   std::unique_ptr<Run> run;
 };
 
-// The same goals in the same order, each later by no more than what the bus and the soft begin take; the bodies stand at
+// The same goals in the same order, each later by no more than what the bus and the soft begin take; the bodies stand
+// at
 // the same poses.
 TEST(GuidedSession, GivesWhatTheRunsOwnGuideGives) {
   GuidedRun own(Where::kBeside), remote(Where::kViewer);
@@ -172,8 +173,7 @@ TEST(GuidedSession, ALaterGuideTakesOver) {
   std::unique_ptr<Guiding> second;
   guided.run->onPoll([&] {
     if (first && guided.probe->filled.contains(0)) first.reset();
-    if (!first && !second && guided.control.time > 2)
-      second = std::make_unique<Guiding>(guided.world, guided.bus);
+    if (!first && !second && guided.control.time > 2) second = std::make_unique<Guiding>(guided.world, guided.bus);
   });
   guided.run->execute();
   EXPECT_EQ(guided.probe->order, (std::vector<std::size_t>{0, 1, 2}));
