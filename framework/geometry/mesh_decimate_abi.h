@@ -10,7 +10,8 @@ namespace presa {
 /// are a seam (of a texture): they move together or not at all. `error`: about how far the surface moved; may be null.
 using DecimateMeshFunction = std::uint64_t (*)(const std::uint32_t* indices, std::uint64_t index_count,
                                                const float* coordinates, std::uint64_t vertex_count,
-                                               std::uint64_t wanted_index_count, float max_error, std::uint32_t* out, float* error);
+                                               std::uint64_t wanted_index_count, float max_error, std::uint32_t* out,
+                                               float* error);
 
 inline constexpr const char* kMeshDecimateSymbol = "presaDecimateMesh";
 

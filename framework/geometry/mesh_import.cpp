@@ -168,7 +168,8 @@ bool Import::takeModel(const ImportedModel& imported) {
   }
   model_->corners.assign(imported.corners, imported.corners + imported.corner_count);
   if (options_.scale.prod() < 0)
-    for (std::size_t c = 0; c + 2 < model_->corners.size(); c += 3) std::swap(model_->corners[c], model_->corners[c + 1]);
+    for (std::size_t c = 0; c + 2 < model_->corners.size(); c += 3)
+      std::swap(model_->corners[c], model_->corners[c + 1]);
   for (std::size_t i = 0; i < imported.part_count; ++i) {
     const ImportedPart& part = imported.parts[i];
     model_->parts.push_back({part.first_vertex, part.vertex_count, part.first_corner, part.corner_count,

@@ -12,17 +12,17 @@
 /// triangles alone.
 namespace presa {
 
-inline constexpr int kMaxTextureSide = 4096;                   ///< [pixel]
+inline constexpr int kMaxTextureSide = 4096;                    ///< [pixel]
 inline constexpr std::uint64_t kMaxTextureBytes = 64ULL << 20;  ///< of one compressed texture
 /// Of all textures of a model together [pixel]: eight of the largest.
 inline constexpr std::uint64_t kMaxTexels = 8ULL * kMaxTextureSide * kMaxTextureSide;
 
 /// A compressed picture, PNG or JPEG: in a file of its own, or in the model's (then `bytes` holds it).
 struct ModelTexture {
-  std::string name;          ///< as the model calls it
-  std::string file;          ///< path; empty: embedded
-  std::string bytes;         ///< of an embedded one
-  int width = 0, height = 0; /// [pixel]
+  std::string name;           ///< as the model calls it
+  std::string file;           ///< path; empty: embedded
+  std::string bytes;          ///< of an embedded one
+  int width = 0, height = 0;  ///< [pixel]
 };
 
 /// A surface under light. Maps are indices into Model::textures; -1: none.
@@ -38,9 +38,9 @@ struct ModelMaterial {
 
 /// Single precision: the graphics card's.
 struct ModelVertex {
-  std::array<float, 3> position{};     ///< [m]
-  std::array<float, 3> normal{};       ///< unit; zero: the file has none
-  std::array<float, 2> at{};           ///< in the textures, from their lower left corner
+  std::array<float, 3> position{};      ///< [m]
+  std::array<float, 3> normal{};        ///< unit; zero: the file has none
+  std::array<float, 2> at{};            ///< in the textures, from their lower left corner
   std::array<float, 3> color{1, 1, 1};  ///< linear; a factor
 };
 

@@ -18,7 +18,9 @@ constexpr std::size_t kHeadBytes = 4U << 20U;  // what comes before the size: a 
 
 /// "my%20stone.jpg" as "my stone.jpg": glTF names files by URI.
 std::string decoded(const std::string& uri) {
-  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0 ? c - '0' : (c | 32) - 'a' + 10; };
+  const auto digit = [](char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0 ? c - '0' : (c | 32) - 'a' + 10;
+  };
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
     const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
@@ -65,7 +67,8 @@ class TextureCheck {
 
  private:
   bool fail(const ModelTexture& texture, int code, const std::string& what, const std::string& help) {
-    diagnostics_.error(code, where_, "model " + model_.file + ": its texture " + quote(texture.name) + " " + what, help);
+    diagnostics_.error(code, where_, "model " + model_.file + ": its texture " + quote(texture.name) + " " + what,
+                       help);
     return false;
   }
 
@@ -106,7 +109,8 @@ class TextureCheck {
     const std::optional<std::string> head = embedded ? std::nullopt : headOf(texture);
     if (!embedded && !head) return false;
     const std::optional<ImageSize> size = imageSize(embedded ? texture.bytes : *head);
-    if (!size) return fail(texture, kUnknownFormat, "is neither a PNG nor a JPEG picture, or is damaged", "use PNG or JPEG");
+    if (!size)
+      return fail(texture, kUnknownFormat, "is neither a PNG nor a JPEG picture, or is damaged", "use PNG or JPEG");
     if (std::max(size->width, size->height) > std::uint32_t{kMaxTextureSide})
       return fail(texture, kTooLarge,
                   "has " + pixels(size->width, size->height) + ", up to " + pixels(kMaxTextureSide, kMaxTextureSide) +

@@ -2,24 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <optional>
 
 #include "framework/geometry/convex.h"
 #include "framework/geometry/decimate.h"
+#include "framework/geometry/surface_tree.h"
 
 namespace presa {
 namespace {
 
-constexpr int kAttempts = 8;
-constexpr double kKnownTo = 0.02;          // difference of the two bounds of a distance, relative to what is allowed
-constexpr std::size_t kCutTriangles = 600;  // of the mesh that is cut into pieces: the time grows with their square
-constexpr double kSampled = 1.0 / 150;      // longest edge between samples of pieces, relative to the mesh's size
-
-/// What is left of `go_on` for a part of the work.
-GoOn part(const GoOn& go_on, double begin, double end) {
-  if (!go_on) return {};
-  return [=](double share) { return go_on(begin + share * (end - begin)); };
-}
+constexpr double kKnownTo = 0.02;    // difference of the two bounds of a distance, relative to what is allowed
+constexpr double kNearEnough = 1.1;  // of the numbers of triangles between which the search ends
+constexpr std::size_t kFewest = 8, kSteps = 10;
+constexpr std::size_t kCutTriangles = 4000;   // of the mesh that is cut into pieces
+constexpr double kSolidKnownTo = 1.0 / 1000;  // difference of the bounds for pieces, relative to the mesh's size
 
 double sizeOfMesh(const TriMesh& mesh) {
   const AxisBox box = boundsOf(mesh);
@@ -34,27 +31,48 @@ bool isAsWhole(const TriMesh& mesh, const MeshReport& original) {
          (report.open_edges == 0 || original.open_edges > 0);
 }
 
-/// The mesh with edges of up to `longest` [m]: long ones are halved, in both triangles alike.
-TriMesh refined(TriMesh mesh, double longest) {
-  std::vector<TriMesh::Triangle> todo = std::move(mesh.triangles), done;
-  while (!todo.empty()) {
-    const TriMesh::Triangle t = todo.back();
-    todo.pop_back();
-    const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[i % 3])]; };
-    std::size_t edge = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-      if ((at(i + 1) - at(i)).squaredNorm() > (at(edge + 1) - at(edge)).squaredNorm()) edge = i;
-    if ((at(edge + 1) - at(edge)).norm() <= longest) {
-      done.push_back(t);
-      continue;
-    }
-    const auto middle = static_cast<std::int32_t>(mesh.vertices.size());
-    mesh.vertices.push_back((at(edge) + at(edge + 1)) / 2);
-    todo.push_back({t[edge], middle, t[(edge + 2) % 3]});
-    todo.push_back({middle, t[(edge + 1) % 3], t[(edge + 2) % 3]});
+/// The piece as a file keeps it, in single precision. Narrow triangles may lean by that rounding, and the piece is convex no
+/// more: then with fewer vertices, of which those that matter least for the shape are left out first.
+TriMesh asInFile(const TriMesh& piece) {
+  constexpr double kMargin = 2e-6;  // a fifth of what isConvex allows when the file is read
+  constexpr double kApart = 1e-3;   // of vertices, relative to the piece's size: nearer ones only make narrow triangles
+  const double apart = kApart * sizeOfMesh(piece);
+  std::vector<Vec3> points;
+  for (const Vec3& v : piece.vertices) {
+    const Vec3 rounded = v.cast<float>().cast<double>();
+    const auto is_near = [&](const Vec3& other) { return (other - rounded).norm() < apart; };
+    if (std::ranges::none_of(points, is_near)) points.push_back(rounded);
   }
-  mesh.triangles = std::move(done);
-  return mesh;
+  for (std::size_t count = points.size(); count > 4; count -= std::max<std::size_t>(1, count / 8)) {
+    const std::optional<TriMesh> hull = convexHull(points, count);
+    if (hull && degenerateTriangles(*hull) == 0 && isConvex(*hull, kMargin)) return *hull;
+  }
+  return piece;
+}
+
+/// Distance from a solid.
+double distanceFrom(const SurfaceTree& tree, const Vec3& p) {
+  return tree.isInside(p) ? 0 : std::sqrt(tree.squaredDistance(p, 1e300));
+}
+
+/// Distances of the surface from the pieces, and of the pieces from the solid in the surface.
+void measure(const TriMesh& mesh, TouchPieces& made) {
+  const double known_to = kSolidKnownTo * sizeOfMesh(mesh);
+  std::vector<SurfaceTree> trees(made.pieces.begin(), made.pieces.end());
+  made.forth = largestDistance(
+      mesh,
+      [&](const Vec3& p) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const SurfaceTree& tree : trees) nearest = std::min(nearest, distanceFrom(tree, p));
+        return nearest;
+      },
+      known_to);
+  const SurfaceTree whole(mesh);
+  for (const TriMesh& piece : made.pieces) {
+    const auto found = largestDistance(
+        piece, [&](const Vec3& p) { return distanceFrom(whole, p); }, known_to);
+    made.back = {std::max(made.back.low, found.low), std::max(made.back.high, found.high)};
+  }
 }
 
 }  // namespace
@@ -64,38 +82,40 @@ double TouchMesh::distance() const { return std::max(forth.high, back.high); }
 TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on) {
   const MeshReport original = checkMesh(mesh);
   const double known_to = kKnownTo * max_error;
-  double allowed = max_error;  // for the decimation, whose own measure is a mean
-  for (int i = 0; i < kAttempts; ++i) {
-    const auto share = [&](double of) { return (i + of) / kAttempts; };
-    TouchMesh made{decimateMesh(mesh, 1, allowed), {}, {}};
-    if (!isAsWhole(made.mesh, original)) {
-      allowed /= 2;
-      continue;
-    }
-    made.back = surfaceDistance(made.mesh, mesh, known_to, part(go_on, share(0), share(0.5)));
-    made.forth = surfaceDistance(mesh, made.mesh, known_to, part(go_on, share(0.5), share(1)));
-    if (std::isinf(made.distance())) return {};
-    if (made.distance() <= max_error) {
-      buildAdjacency(made.mesh);
-      return made;
-    }
-    allowed *= std::clamp(0.9 * max_error / made.distance(), 0.2, 0.9);
+  TouchMesh best{mesh, {}, {}};
+  // the distance falls as the triangles grow in number: the search halves the interval of their logarithm
+  double few = static_cast<double>(kFewest), enough = static_cast<double>(mesh.triangles.size());
+  bool stopped = false;
+  for (std::size_t step = 0; step < kSteps && enough > kNearEnough * few && !stopped; ++step) {
+    const auto told = [&](double begin) {
+      return GoOn([&, begin](double share) {
+        const double done = (static_cast<double>(step) + begin + share / 2) / static_cast<double>(kSteps);
+        stopped = stopped || (go_on && !go_on(done));
+        return !stopped;
+      });
+    };
+    const double wanted = std::sqrt(few * enough);
+    TouchMesh made{decimateMesh(mesh, static_cast<std::size_t>(wanted)), {}, {}};
+    bool good = isAsWhole(made.mesh, original);
+    if (good) made.back = surfaceDistance(made.mesh, mesh, known_to, told(0), max_error);
+    good = good && made.back.high <= max_error;
+    if (good) made.forth = surfaceDistance(mesh, made.mesh, known_to, told(0.5), max_error);
+    good = good && made.forth.high <= max_error && made.mesh.triangles.size() < best.mesh.triangles.size();
+    if (good) best = std::move(made);
+    (good ? enough : few) = wanted;
   }
-  return {mesh, {}, {}};
+  if (stopped) return {};
+  buildAdjacency(best.mesh);
+  return best;
 }
 
 TouchPieces touchPieces(const TriMesh& mesh, std::size_t max_pieces, double max_error, const GoOn& go_on) {
-  const MeshReport original = checkMesh(mesh);
   TriMesh coarse = decimateMesh(mesh, kCutTriangles);
-  if (!isAsWhole(coarse, original)) coarse = mesh;
-  TouchPieces made{decompose(coarse, max_pieces, max_error), 0, 0};
+  if (!isAsWhole(coarse, checkMesh(mesh))) coarse = mesh;
+  TouchPieces made{decompose(coarse, max_pieces, max_error), {}, {}};
+  for (TriMesh& piece : made.pieces) piece = asInFile(piece);
   if (go_on && !go_on(0.5)) return {};
-  const double longest = kSampled * sizeOfMesh(mesh);
-  std::vector<TriMesh> sampled;
-  for (const TriMesh& piece : made.pieces) sampled.push_back(refined(piece, longest));
-  made.low = hausdorffDistance(refined(mesh, longest), sampled);
-  // no point is farther than this from a corner of its triangle
-  made.high = made.low + longest / std::numbers::sqrt3;
+  measure(mesh, made);
   if (go_on && !go_on(1)) return {};
   return made;
 }

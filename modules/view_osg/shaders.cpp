@@ -582,7 +582,8 @@ osg::ref_ptr<osg::Program> quickBody(Material::Texture texture, bool grid) {
   return quickSurface("body", texture, texture == Material::Texture::kNone, grid);
 }
 osg::ref_ptr<osg::Program> model(const Maps& maps, bool quick) {
-  return quick ? quickSurface("model", {}, false, false, false, mapsOf(maps)) : surface("model", kModel, {}, mapsOf(maps));
+  return quick ? quickSurface("model", {}, false, false, false, mapsOf(maps))
+               : surface("model", kModel, {}, mapsOf(maps));
 }
 osg::ref_ptr<osg::Program> floor(Material::Texture texture) { return surface("floor", kFloor, texture); }
 osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open) {

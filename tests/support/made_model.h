@@ -31,7 +31,8 @@ inline std::string pngChunk(const std::string& kind, const std::string& data) {
 }
 
 inline std::string pngHead(std::uint32_t width, std::uint32_t height) {
-  return "\x89PNG\r\n\x1a\n" + pngChunk("IHDR", bigEndian(width) + bigEndian(height) + std::string("\x08\x02\0\0\0", 5));
+  return "\x89PNG\r\n\x1a\n" +
+         pngChunk("IHDR", bigEndian(width) + bigEndian(height) + std::string("\x08\x02\0\0\0", 5));
 }
 
 /// A PNG of 8 bits; `pixel` gets the column and the row from above.
@@ -78,7 +79,8 @@ inline Sheet sheet(std::uint32_t columns, std::uint32_t rows,
   Sheet s;
   for (std::uint32_t j = 0; j <= rows; ++j) {
     for (std::uint32_t i = 0; i <= columns; ++i) {
-      const float u = static_cast<float>(i) / static_cast<float>(columns), v = static_cast<float>(j) / static_cast<float>(rows);
+      const float u = static_cast<float>(i) / static_cast<float>(columns),
+                  v = static_cast<float>(j) / static_cast<float>(rows);
       s.places.push_back(place(u, v)), s.normals.push_back(normal(u, v)), s.at.push_back({u, v});
     }
   }
@@ -93,8 +95,13 @@ inline Sheet sheet(std::uint32_t columns, std::uint32_t rows,
 /// A square in the plane y = 0 that faces -y, `edge` wide, centred at the origin, z up.
 inline Sheet frontSquare(float edge) {
   return sheet(
-      1, 1, [=](float u, float v) { return std::array<float, 3>{(u - 0.5F) * edge, 0, (v - 0.5F) * edge}; },
-      [](float, float) { return std::array<float, 3>{0, -1, 0}; });
+      1, 1,
+      [=](float u, float v) {
+        return std::array<float, 3>{(u - 0.5F) * edge, 0, (v - 0.5F) * edge};
+      },
+      [](float, float) {
+        return std::array<float, 3>{0, -1, 0};
+      });
 }
 
 inline std::string objOf(const Sheet& s, const std::string& library) {
@@ -137,11 +144,12 @@ inline void writeGltf(const std::filesystem::path& folder, const std::string& na
     textures += std::string(i > 0 ? "," : "") + R"({"source":)" + std::to_string(i) + "}";
   }
   const std::string pictures = images.empty() ? "" : R"("images":[)" + list + R"(],"textures":[)" + textures + "],";
-  written(folder / (name + ".gltf"),
-          R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
-          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0}]}],)"
-          R"("materials":[)" + materials + "]," + pictures +
-          R"("accessors":[{"bufferView":0,"componentType":5126,"count":)" + n +
+  written(
+      folder / (name + ".gltf"),
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0}]}],)"
+      R"("materials":[)" +
+          materials + "]," + pictures + R"("accessors":[{"bufferView":0,"componentType":5126,"count":)" + n +
           R"(,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]},{"bufferView":1,"componentType":5126,"count":)" + n +
           R"(,"type":"VEC3"},{"bufferView":2,"componentType":5126,"count":)" + n +
           R"(,"type":"VEC2"},{"bufferView":3,"componentType":5125,"count":)" + std::to_string(s.corners.size()) +

@@ -44,19 +44,22 @@ void addModel(Command app, int& status) {
   Command command = app.command(
       "model", "Make haptic and physics geometry from a photographed model, and tell how far they are from it");
   command.option("FILE", a->wanted.file, "mesh: obj, ply, gltf, glb, stl or dae; closed").required().existingFile();
-  command.option("--out", a->wanted.folder, "folder for NAME_haptic.obj, NAME_piece_N.obj and NAME_body.xml").required();
-  command
-      .option("--haptic-error", a->haptic_error_mm, "max Hausdorff distance of the haptic mesh from the model [mm]")
+  command.option("--out", a->wanted.folder, "folder for NAME_haptic.obj, NAME_piece_N.obj and NAME_body.xml")
+      .required();
+  command.option("--haptic-error", a->haptic_error_mm, "max Hausdorff distance of the haptic mesh from the model [mm]")
       .positive()
       .showDefault();
-  command.option("--pieces", a->wanted.pieces, "max number of convex pieces for the dynamics").withinCount(1, 256).showDefault();
+  command.option("--pieces", a->wanted.pieces, "max number of convex pieces for the dynamics")
+      .withinCount(1, 256)
+      .showDefault();
   command.option("--scale", a->wanted.scale, "metres for each unit of the file, e.g. 0.001 for millimetres")
       .positive()
       .showDefault();
   command.option("--density", a->wanted.density, "of the body [kg/m³]").positive().showDefault();
   command.flag("--overwrite", a->wanted.overwrite, "replace files of before");
   command.footer(
-      "The body is drawn as the model, with its colours and textures; fingers feel the haptic mesh, other bodies the pieces.\n"
+      "The body is drawn as the model, with its colours and textures; fingers feel the haptic mesh, other bodies the "
+      "pieces.\n"
       "config/MODELS.md says how models are drawn.\n"
       "Exit status: 0 done, 2 bad input (nothing written), 130 Ctrl-C (likewise).\n"
       "Example:  presa model drum.glb --out drum --haptic-error 0.2 --pieces 8");

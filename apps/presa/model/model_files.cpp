@@ -19,8 +19,11 @@ constexpr double kHapticShare = 0.6;  // of the work that `go_on` is told about
 /// The file's name as the name of a body: letters, digits and _ - . after a letter.
 std::string nameOf(const std::string& file) {
   std::string name = fs::path(file).stem().string();
-  const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.'; };
-  std::ranges::replace_if(name, [&](char c) { return !fits(c); }, '_');
+  const auto fits = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  std::ranges::replace_if(
+      name, [&](char c) { return !fits(c); }, '_');
   const bool begins = !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) != 0 || name[0] == '_');
   return begins ? name : "_" + name;
 }
@@ -58,9 +61,8 @@ std::optional<Made> make(const Wanted& wanted, Diagnostics& diagnostics, const G
   Made made{nameOf(wanted.file), mesh.triangles.size(), {}, {}};
   made.haptic = touchMesh(mesh, wanted.haptic_error, [&](double share) { return go_on(kHapticShare * share); });
   if (made.haptic.mesh.triangles.empty()) return std::nullopt;
-  made.physics = touchPieces(mesh, static_cast<std::size_t>(wanted.pieces), wanted.haptic_error, [&](double share) {
-    return go_on(kHapticShare + (1 - kHapticShare) * share);
-  });
+  made.physics = touchPieces(mesh, static_cast<std::size_t>(wanted.pieces), wanted.haptic_error,
+                             [&](double share) { return go_on(kHapticShare + (1 - kHapticShare) * share); });
   if (made.physics.pieces.empty()) return std::nullopt;
   return made;
 }
@@ -100,8 +102,8 @@ std::string figuresText(const Made& made) {
          " (Hausdorff distances one way, proven bounds)\n" +
          terminal::format("physics: %zu convex piece%s\n", made.physics.pieces.size(),
                           made.physics.pieces.size() == 1 ? "" : "s") +
-         "  pieces and model, as solids: " + between(made.physics.low, made.physics.high) +
-         " (Hausdorff distance both ways, sampled)\n";
+         "  model to pieces: " + between(made.physics.forth.low, made.physics.forth.high) +
+         "\n  pieces to model: " + between(made.physics.back.low, made.physics.back.high) + " (as solids, likewise)\n";
 }
 
 }  // namespace presa::model

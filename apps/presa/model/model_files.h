@@ -9,10 +9,10 @@ namespace presa::model {
 
 struct Wanted {
   std::string file, folder;
-  double scale = 1;             ///< metres for each of the file's units
+  double scale = 1;              ///< metres for each of the file's units
   double haptic_error = 0.0001;  ///< max Hausdorff distance of the haptic mesh [m]
-  int pieces = 16;              ///< max number of convex pieces
-  double density = 2500;        ///< [kg/m³]
+  int pieces = 16;               ///< max number of convex pieces
+  double density = 2500;         ///< [kg/m³]
   bool overwrite = false;
 };
 

@@ -22,9 +22,9 @@ enum class BlockKind {
 
 /// A photographed model in place of Block::visual (apps/temple/models).
 struct BlockModel {
-  std::string file;             ///< absolute path
-  Vec3 scale = Vec3::Ones();    ///< of its axes, to metres
-  Vec3 p_BM = Vec3::Zero();     ///< its origin in the block's frame [m]
+  std::string file;           ///< absolute path
+  Vec3 scale = Vec3::Ones();  ///< of its axes, to metres
+  Vec3 p_BM = Vec3::Zero();   ///< its origin in the block's frame [m]
 };
 
 /// One stone of the building. Its frame B is at the centre of its physics shape, z up in the finished building.

@@ -23,8 +23,8 @@ constexpr double kFeltError = 0.00015;  // [m]
 struct KindModel {
   std::string file;
   AxisBox box;
-  TriMesh felt;           ///< in the file's unit
-  double distance = 0;    ///< of `felt` from the model, in the unit of the file
+  TriMesh felt;         ///< in the file's unit
+  double distance = 0;  ///< of `felt` from the model, in the unit of the file
   std::size_t triangles = 0;
   double largest_scale = 0;
 };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes drum.glb: a weathered drum of a fluted column as a photogrammetry program would write it.
 
-    python3 make_drum.py && presa model drum.glb --out . --overwrite --haptic-error 0.15 --pieces 8
+    python3 make_drum.py && presa model drum.glb --out . --overwrite --haptic-error 0.3 --pieces 12
 
 A glTF 2.0 file with base colour, normal and roughness maps of 512 x 512 pixels (JPEG). Drum 80 mm wide, 110 mm high, origin
 in the middle of its lower face; glTF: metres, y up. Colour, grain and chips are functions of the place in the stone, so no

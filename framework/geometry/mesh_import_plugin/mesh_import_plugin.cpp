@@ -47,8 +47,9 @@ struct OwnedMesh : ImportedMesh {
 }  // namespace
 }  // namespace presa
 
-extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(
-    const char* file, const char* extension, bool drawn) {
+extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(const char* file,
+                                                                                             const char* extension,
+                                                                                             bool drawn) {
   std::error_code unknown;
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;

@@ -128,8 +128,10 @@ class ModelReader {
       colored = colored || mesh.HasVertexColors(0) || (mesh.mMaterialIndex < count && speaks_[mesh.mMaterialIndex]);
     }
     if (colored && scene_.mRootNode != nullptr) place(*scene_.mRootNode, aiMatrix4x4());
-    if (!places_.empty()) append();
-    else out_ = {};
+    if (!places_.empty())
+      append();
+    else
+      out_ = {};
   }
 
  private:

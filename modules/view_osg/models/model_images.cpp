@@ -46,11 +46,13 @@ osg::ref_ptr<osg::Image> decodeTexture(const Model& model, const ModelTexture& t
   }
   const std::string& bytes = texture.bytes.empty() ? read : texture.bytes;
   const std::optional<ImageSize> size = imageSize(bytes);
-  const bool same = size && static_cast<int>(size->width) == texture.width && static_cast<int>(size->height) == texture.height;
+  const bool same =
+      size && static_cast<int>(size->width) == texture.width && static_cast<int>(size->height) == texture.height;
   if (!same) refuseTexture(model, texture, "has changed since it was loaded");
   const char* const ending = size->format == ImageSize::Format::kPng ? "png" : "jpeg";
   osgDB::ReaderWriter* const reader = osgDB::Registry::instance()->getReaderWriterForExtension(ending);
-  if (reader == nullptr) refuseTexture(model, texture, std::string("cannot be decoded: OSG has no reader for ") + ending);
+  if (reader == nullptr)
+    refuseTexture(model, texture, std::string("cannot be decoded: OSG has no reader for ") + ending);
   std::istringstream stream(bytes);
   const osg::ref_ptr<osg::Image> image = reader->readImage(stream).takeImage();
   if (!image || image->data() == nullptr || image->s() < 1 || image->t() < 1)
@@ -92,8 +94,7 @@ osg::ref_ptr<osg::Image> normalsOf(const osg::Image& heights) {
     for (int x = 0; x < width; ++x) {
       Eigen::Vector3f n((at(x - 1, y) - at(x + 1, y)) / 2, (at(x, y - 1) - at(x, y + 1)) / 2, 1);
       n.normalize();
-      for (int c = 0; c < 3; ++c)
-        normals->data(x, y)[c] = static_cast<unsigned char>(std::lround(127.5F * (n[c] + 1)));
+      for (int c = 0; c < 3; ++c) normals->data(x, y)[c] = static_cast<unsigned char>(std::lround(127.5F * (n[c] + 1)));
     }
   }
   return normals;

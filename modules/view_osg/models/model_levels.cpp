@@ -1,17 +1,20 @@
 #include "modules/view_osg/models/model_levels.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/geometry/decimate.h"
+#include "framework/geometry/surface_tree.h"
 
 namespace presa::view {
 namespace {
 
 constexpr std::size_t kFewTriangles = 2000;  ///< as coarse as a level becomes
 constexpr std::size_t kQuarter = 4;
-constexpr double kUseful = 0.7;      ///< a level with more triangles than this share of the one before saves nothing
-constexpr double kCoarsest = 0.02;   ///< max error of a level, relative to the model's size
-constexpr double kColorBump = 0.01;  ///< from black to white, relative to the model's size
+constexpr double kUseful = 0.7;     ///< a level with more triangles than this share of the one before saves nothing
+constexpr double kCoarsest = 0.02;  ///< max error of a level, relative to the model's size
+constexpr std::size_t kMeasured = 20'000;  ///< vertices from which the error of a level is measured
+constexpr double kColorBump = 0.01;        ///< from black to white, relative to the model's size
 
 using Vec3f = Eigen::Vector3f;
 
@@ -59,6 +62,26 @@ ModelLevel byParts(const ModelSurface& surface, const std::vector<std::uint32_t>
   return level;
 }
 
+/// How far a level is from the finest [m]: the largest distance of its vertices, a sample where they are many. What the
+/// decimation tells is a mean, up to seven times less.
+double errorOf(const ModelSurface& surface, const std::vector<std::uint32_t>& corners) {
+  const auto at = [&](std::size_t v) {
+    const std::array<float, 3>& p = surface.vertices[v].position;
+    return Vec3(p[0], p[1], p[2]);
+  };
+  TriMesh mesh;
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) mesh.vertices.push_back(at(v));
+  for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+    const auto corner = [&](std::size_t i) { return static_cast<std::int32_t>(corners[c + i]); };
+    mesh.triangles.push_back({corner(0), corner(1), corner(2)});
+  }
+  const SurfaceTree tree(mesh);
+  double largest = 0;  // squared
+  for (std::size_t v = 0; v < mesh.vertices.size(); v += 1 + mesh.vertices.size() / kMeasured)
+    largest = std::max(largest, tree.squaredDistance(mesh.vertices[v], 1e300));
+  return std::sqrt(largest);
+}
+
 }  // namespace
 
 std::vector<ModelLevel> levelsOf(const ModelSurface& surface) {
@@ -71,7 +94,9 @@ std::vector<ModelLevel> levelsOf(const ModelSurface& surface) {
     CoarserCorners coarser = decimateCorners(places, corners, before / 3 / kQuarter, kCoarsest * size);
     if (static_cast<double>(coarser.corners.size()) > kUseful * static_cast<double>(before)) break;
     corners = std::move(coarser.corners);
-    levels.push_back(byParts(surface, corners, levels.back().error + coarser.error));
+    // bumps of colours count, too: only the decimation knows them
+    const double error = std::max({errorOf(surface, corners), coarser.error, levels.back().error});
+    levels.push_back(byParts(surface, corners, error));
   }
   return levels;
 }

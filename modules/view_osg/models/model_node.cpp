@@ -18,11 +18,11 @@
 namespace presa::view {
 namespace {
 
-constexpr double kModelCrease = 40 * std::numbers::pi / 180;    // as scene_nodes
-constexpr double kFinePixels = 0.5, kQuickPixels = 1.5;         // max error of a level in the picture
-constexpr double kQuickError = 0.0002;                          // finer levels are not drawn by software [m]
+constexpr double kModelCrease = 40 * std::numbers::pi / 180;         // as scene_nodes
+constexpr double kFinePixels = 0.5, kQuickPixels = 1.5;              // max error of a level in the picture
+constexpr double kQuickError = 0.0002;                               // finer levels are not drawn by software [m]
 constexpr unsigned kColorUnit = 4, kNormalUnit = 5, kRoughUnit = 6;  // lighting and grain have 0 to 3
-constexpr double kDarkest = 0.02;                               // of a mean by which a map is divided
+constexpr double kDarkest = 0.02;                                    // of a mean by which a map is divided
 
 double toLinear(double display) {
   return display <= 0.04045 ? display / 12.92 : std::pow((display + 0.055) / 1.055, 2.4);
@@ -74,7 +74,9 @@ void ModelShapes::fillArrays(const ModelSurface& surface) {
       const ModelVertex& vertex = surface.vertices[v];
       places_->push_back({vertex.position[0], vertex.position[1], vertex.position[2]});
       normals_->push_back({vertex.normal[0], vertex.normal[1], vertex.normal[2]});
-      const auto color = [&](int i) { return vertex.color[static_cast<std::size_t>(i)] * static_cast<float>(factor[i]); };
+      const auto color = [&](int i) {
+        return vertex.color[static_cast<std::size_t>(i)] * static_cast<float>(factor[i]);
+      };
       colors_->push_back({color(0), color(1), color(2), 1});
       if (mapped) at_->push_back({vertex.at[0], vertex.at[1]});
     }
@@ -113,7 +115,8 @@ ModelShapes::Map ModelShapes::plain(osg::Image& of, GLint format, bool quick) {
   Map texture = new osg::Texture2D(&of);
   texture->setResizeNonPowerOfTwoHint(false);
   texture->setInternalFormat(format);
-  texture->setFilter(osg::Texture::MIN_FILTER, quick ? osg::Texture::LINEAR_MIPMAP_NEAREST : osg::Texture::LINEAR_MIPMAP_LINEAR);
+  texture->setFilter(osg::Texture::MIN_FILTER,
+                     quick ? osg::Texture::LINEAR_MIPMAP_NEAREST : osg::Texture::LINEAR_MIPMAP_LINEAR);
   texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
   for (const auto axis : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(axis, osg::Texture::REPEAT);
   return texture;
@@ -163,9 +166,9 @@ osg::ref_ptr<osg::LOD> ModelShapes::node(bool quick) {
   osg::ref_ptr<osg::LOD> node = new osg::LOD;
   node->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
   const std::size_t finest = !quick ? 0
-                                    : static_cast<std::size_t>(std::ranges::count_if(levels_, [](const Level& level) {
-                                        return level.error <= kQuickError;
-                                      })) - 1;
+                                    : static_cast<std::size_t>(std::ranges::count_if(
+                                          levels_, [](const Level& level) { return level.error <= kQuickError; })) -
+                                          1;
   for (std::size_t i = finest; i < levels_.size(); ++i) {
     osg::ref_ptr<osg::Group> level = new osg::Group;
     for (std::size_t part = 0; part < states.size(); ++part) {

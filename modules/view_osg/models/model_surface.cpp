@@ -28,7 +28,8 @@ std::vector<Vec3f> normalsFromShape(const Model& model, double crease_angle) {
   const std::vector<std::uint32_t> places = placesOf(model.vertices);
   TriMesh mesh;
   mesh.vertices.resize(model.vertices.size());
-  for (std::size_t v = 0; v < places.size(); ++v) mesh.vertices[places[v]] = vec(model.vertices[v].position).cast<double>();
+  for (std::size_t v = 0; v < places.size(); ++v)
+    mesh.vertices[places[v]] = vec(model.vertices[v].position).cast<double>();
   for (std::size_t c = 0; c + 2 < model.corners.size(); c += 3) {
     const auto place = [&](std::size_t i) { return static_cast<std::int32_t>(places[model.corners[c + i]]); };
     mesh.triangles.push_back({place(0), place(1), place(2)});

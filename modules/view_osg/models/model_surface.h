@@ -7,8 +7,8 @@ namespace presa::view {
 struct ModelSurface {
   std::vector<ModelVertex> vertices;  ///< all with normals
   std::vector<std::uint32_t> corners;
-  std::vector<Model::Part> parts;                ///< ranges of these vertices and corners
-  std::vector<std::array<float, 4>> tangents;    ///< along which the map's x grows, and the sign of its y; empty: no use
+  std::vector<Model::Part> parts;              ///< ranges of these vertices and corners
+  std::vector<std::array<float, 4>> tangents;  ///< along which the map's x grows, and the sign of its y; empty: no use
 };
 
 /// Normals of the file; where it has none, those of the faces around a vertex, with edges above `crease_angle` [rad].

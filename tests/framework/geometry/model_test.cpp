@@ -1,6 +1,7 @@
 #include "framework/geometry/model.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -90,7 +91,8 @@ TEST_F(ModelFile, PlyHasColoursOfItsVertices) {
   written(folder_ / "p.ply",
           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
           "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
-          "property list uchar int vertex_indices\nend_header\n0 0 0 188 0 255\n1 0 0 188 0 255\n0 0 1 188 0 255\n3 0 1 2\n");
+          "property list uchar int vertex_indices\nend_header\n0 0 0 188 0 255\n1 0 0 188 0 255\n0 0 1 188 0 255\n3 0 "
+          "1 2\n");
   const DrawnMesh drawn = load("p.ply");
   ASSERT_TRUE(drawn.model) << found_.text();
   EXPECT_NEAR(drawn.model->vertices.at(0).color[0], 0.5029, 1e-4);
@@ -133,7 +135,11 @@ TEST_F(ModelFile, TellsWhichTextureIsMissingOrHostile) {
   fs::remove(folder_ / "t.png");
   fs::create_directory(folder_ / "t.png");
   loadObj("map_Kd t.png\n");
-  expectError(690, "t.png");
+  expectError(260, "is a directory");
+  fs::remove(folder_ / "t.png");
+  ASSERT_EQ(mkfifo((folder_ / "t.png").c_str(), 0600), 0);
+  loadObj("map_Kd t.png\n");
+  expectError(690, "is a named pipe");
 }
 
 TEST_F(ModelFile, AllTexturesTogetherHaveALimit) {

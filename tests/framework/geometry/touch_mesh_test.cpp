@@ -16,8 +16,8 @@ constexpr double kKnown = 1e-6;  // [m]
 
 void expectDistance(const SurfaceDistance& found, double exact, double tolerance = 1e-12) {
   EXPECT_LE(found.low, exact + tolerance);
-  EXPECT_GE(found.high, exact - tolerance);
-  EXPECT_LE(found.high - found.low, kKnown * (1 + 1e-9));
+  EXPECT_GE(found.high, exact - std::max(tolerance, 1e-12));
+  EXPECT_LE(found.high - found.low, kKnown * (1 + 1e-9));  // of the two bounds
 }
 
 TEST(SurfaceDistance, IsThatOfBoxesOneWayAndTheOther) {
@@ -59,7 +59,7 @@ TEST(TouchMesh, KeepsTheDistanceThatIsAllowed) {
     const TouchMesh made = touchMesh(sphere, allowed);
     EXPECT_LE(made.distance(), allowed);
     EXPECT_GT(made.distance(), 0.4 * allowed);  // and uses it
-    EXPECT_LT(made.mesh.triangles.size(), sphere.triangles.size() / 3);
+    EXPECT_LT(made.mesh.triangles.size(), sphere.triangles.size() / 2);
     EXPECT_TRUE(checkMesh(made.mesh).closed());
     // bounds against the sampled distance
     const double sampled = hausdorffDistance(sphere, made.mesh);
@@ -71,7 +71,7 @@ TEST(TouchMesh, IsTheMeshWhereNoneIsCoarser) {
   const TriMesh box = makeBox({0.1, 0.1, 0.1});
   const TouchMesh made = touchMesh(box, 1e-4);
   EXPECT_EQ(made.mesh.triangles.size(), 12u);
-  EXPECT_EQ(made.distance(), 0);
+  EXPECT_LT(made.distance(), 1e-15);
 }
 
 TEST(TouchPieces, AreConvexAndAsFarAsTheySay) {
@@ -79,11 +79,16 @@ TEST(TouchPieces, AreConvexAndAsFarAsTheySay) {
   const TouchPieces made = touchPieces(sphere, 4, 1e-3);
   ASSERT_FALSE(made.pieces.empty());
   EXPECT_LE(made.pieces.size(), 4u);
-  for (const TriMesh& piece : made.pieces) EXPECT_TRUE(isConvex(piece));
+  for (TriMesh piece : made.pieces) {
+    EXPECT_TRUE(isConvex(piece));
+    for (Vec3& v : piece.vertices) v = v.cast<float>().cast<double>();  // as in a file
+    EXPECT_TRUE(isConvex(piece));
+  }
   // a convex polyhedron of up to 64 faces in a sphere: at least half the sagitta of 64 equal triangles (decimate_test)
-  EXPECT_GT(made.high, 2 * M_PI * 0.05 / (3 * std::sqrt(3.0) * 64 * 4));
-  EXPECT_GE(made.low, hausdorffDistance(sphere, made.pieces) - 1e-12);
-  EXPECT_LT(made.high, made.low + 0.05 * 2 * std::sqrt(3.0) / 150);
+  EXPECT_GT(made.forth.high, 2 * M_PI * 0.05 / (3 * std::sqrt(3.0) * 64 * 4));
+  const double low = std::max(made.forth.low, made.back.low), high = std::max(made.forth.high, made.back.high);
+  EXPECT_GE(high, hausdorffDistance(sphere, made.pieces) - 1e-12);
+  EXPECT_LE(high - low, 0.1 * std::sqrt(3.0) / 1000 + 1e-12);
 }
 
 }  // namespace
