@@ -13,9 +13,11 @@
 #include "apps/common/options/view_options.h"
 #include "apps/common/scratch_folder.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/common/terminal/waiting.h"
 #include "apps/common/terminal_run.h"
 #include "apps/temple/building/building.h"
 #include "apps/temple/building/words.h"
+#include "apps/temple/models/block_models.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/ruins_cache.h"
 #include "apps/temple/sound/loudspeaker.h"
@@ -43,6 +45,7 @@ struct Arguments {
   RunOptions bus;                        // only what concerns the bus
   std::string visits;                    // folder of saved visits; empty: the default
   std::string counts;                    // file of counted visits; empty: the default
+  std::string models;                    // folder; empty: none
   std::string kept;                      // session to continue
   std::vector<std::string> screenshots;  // seconds, folder
   std::uint64_t seed = 1;
@@ -290,6 +293,20 @@ enum class Next {
   kOnward,  ///< the next task
 };
 
+/// Photographed models for the blocks; false: errors, which were told.
+bool useModels(temple::Building& building, const Arguments& a) {
+  if (a.models.empty()) return true;
+  Diagnostics diagnostics;
+  std::vector<std::string> lines;
+  {
+    const terminal::Waiting waiting("simplifying the models of " + a.models);
+    lines = temple::useModels(building, a.models, diagnostics);
+  }
+  std::fputs(diagnostics.text().c_str(), stderr);
+  for (const std::string& line : lines) std::printf("%s\n", line.c_str());
+  return !diagnostics.hasErrors();
+}
+
 /// One visit. `seconds`: added to the simulated time.
 int runOnce(Arguments& a, Next& next, double& seconds) {
   Diagnostics diagnostics;
@@ -315,7 +332,7 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
     if (kept) spec = specOf(*building, *kept, kept_file, diagnostics);
   }
   std::fputs(diagnostics.text().c_str(), stderr);
-  if (diagnostics.hasErrors()) return kExitBadInput;
+  if (diagnostics.hasErrors() || !useModels(*building, a)) return kExitBadInput;
 
   if (!spec)
     spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed, a.parameters.empty() ? a.size : "");
@@ -435,6 +452,11 @@ void addTemple(Command app, int& status) {
       .excludes(attract);
   command.flag("--painted", a->painted,
                "in the colours of which traces were found: triglyphs blue, metopes red, the pediment's wall blue");
+  command
+      .option("--models", a->models,
+              "folder of photographed models, KIND.glb, .gltf, .obj or .ply (drum, capital, …: apps/temple/models):\n"
+              "blocks of that kind are drawn and felt as the model, and move as before")
+      .existingFolder();
   command.option("--seed", a->seed, "seed of the damage to the stones and of the places where the blocks fell")
       .showDefault();
   command.option("--write", a->folder, "folder for scene.xml and its meshes, which presa check, explain and run take");

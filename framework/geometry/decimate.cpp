@@ -29,19 +29,28 @@ double farthest(const TriMesh& from, const TriMesh& to) {
 
 }  // namespace
 
-TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles, double max_error) {
+CoarserCorners decimateCorners(const std::vector<float>& places, const std::vector<std::uint32_t>& corners,
+                               std::size_t triangles, double max_error) {
   const auto simplify = reinterpret_cast<DecimateMeshFunction>(pluginSymbol("mesh_decimate", kMeshDecimateSymbol));
+  CoarserCorners out;
+  out.corners.resize(corners.size());
+  float error = 0;
+  out.corners.resize(simplify(corners.data(), corners.size(), places.data(), places.size() / 3, 3 * triangles,
+                              static_cast<float>(max_error), out.corners.data(), &error));
+  out.error = double{error};
+  return out;
+}
+
+TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles, double max_error) {
   std::vector<float> coordinates;
   for (const Vec3& v : mesh.vertices)
     coordinates.insert(coordinates.end(),
                        {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
-  std::vector<std::uint32_t> indices, out;
+  std::vector<std::uint32_t> indices;
   for (const TriMesh::Triangle& t : mesh.triangles) {
     for (const std::int32_t corner : t) indices.push_back(static_cast<std::uint32_t>(corner));
   }
-  out.resize(indices.size());
-  out.resize(simplify(indices.data(), indices.size(), coordinates.data(), mesh.vertices.size(), 3 * triangles,
-                      static_cast<float>(max_error), out.data()));
+  const std::vector<std::uint32_t> out = decimateCorners(coordinates, indices, triangles, max_error).corners;
   TriMesh decimated;
   decimated.vertices = mesh.vertices;
   for (std::size_t i = 0; i + 2 < out.size(); i += 3) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "framework/geometry/tri_mesh.h"
 
@@ -12,6 +14,16 @@ namespace presa {
 /// Thread: any, not the haptic group. Throws InputError when the plug-in is missing.
 TriMesh decimateMesh(const TriMesh& mesh, std::size_t triangles,
                      double max_error = std::numeric_limits<double>::infinity());
+
+/// The corners of a coarser mesh over the same vertices, of which some are left out.
+struct CoarserCorners {
+  std::vector<std::uint32_t> corners;  ///< three for each triangle
+  double error = 0;                    ///< about how far the surface moved [m]
+};
+/// As decimateMesh, of vertices that may lie in one place with different normals or texture coordinates: such seams stay
+/// closed. `places`: x y z of each vertex [m]; `corners`: three for each triangle.
+CoarserCorners decimateCorners(const std::vector<float>& places, const std::vector<std::uint32_t>& corners,
+                               std::size_t triangles, double max_error = std::numeric_limits<double>::infinity());
 
 /// Symmetric Hausdorff distance of two surfaces [m], sampled at vertices, edge midpoints and triangle centres: a lower
 /// bound, exact where the maximum lies at a sample.

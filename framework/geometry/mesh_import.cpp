@@ -5,6 +5,8 @@
 #include <sstream>
 
 #include "framework/geometry/mesh_import_abi.h"
+#include "framework/geometry/model.h"
+#include "framework/geometry/texture_check.h"
 #include "framework/geometry/tri_mesh.h"
 #include "framework/input/input.h"
 #include "framework/plugin/plugin_loader.h"
@@ -17,6 +19,8 @@ namespace fs = std::filesystem;
 /// Vertices nearer than this fraction of the bounding-box diagonal are merged [-]: above the single-precision rounding
 /// of the files (6e-8), below any detail that can be felt (0.1 um on a 10 cm object).
 constexpr double kWeldTolerance = 1e-6;
+enum ModelCode { kNoCoordinates = 263, kNoLibrary = 264 };
+
 /// With this many degenerate triangles a mesh is refused; fewer are dropped with a warning.
 constexpr std::size_t kTooManyDegenerate = 10;
 
@@ -33,8 +37,10 @@ std::string text(const Vec3& p) {
 /// Reads, checks and repairs one file; stops at the first error.
 class Import {
  public:
-  Import(const std::string& file, const ImportOptions& options, const SourceLocation& where, Diagnostics& diagnostics)
-      : file_(file), options_(options), where_(where), diagnostics_(diagnostics) {}
+  /// `model`: is filled in; null: not asked for.
+  Import(const std::string& file, const ImportOptions& options, const SourceLocation& where, Diagnostics& diagnostics,
+         std::shared_ptr<Model> model)
+      : file_(file), options_(options), where_(where), diagnostics_(diagnostics), model_(std::move(model)) {}
 
   TriMesh run() {
     const bool good = checkScale() && checkFile() && read() && checkNumbers() && repair() && checkSurface();
@@ -56,6 +62,8 @@ class Import {
   bool checkFile();
   bool read();
   bool take(const ImportedMesh& imported);
+  bool takeModel(const ImportedModel& imported);
+  void warnAbout(const ImportedModel& imported);
   bool checkNumbers();
   bool repair();
   bool checkSurface();
@@ -65,6 +73,7 @@ class Import {
   const ImportOptions& options_;
   const SourceLocation& where_;
   Diagnostics& diagnostics_;
+  std::shared_ptr<Model> model_;
   std::string extension_;
   TriMesh mesh_;
 };
@@ -99,8 +108,8 @@ bool Import::read() {
   try {
     const auto import = reinterpret_cast<ImportMeshFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
     const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
-    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(import(file_.c_str(), extension_.c_str()),
-                                                                            release);
+    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(
+        import(file_.c_str(), extension_.c_str(), model_ != nullptr), release);
     return take(*imported);
   } catch (const InputError& error) {
     for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
@@ -130,7 +139,61 @@ bool Import::take(const ImportedMesh& imported) {
     mesh_.triangles.push_back({imported.indices[3 * i], imported.indices[3 * i + 1], imported.indices[3 * i + 2]});
   }
   if (options_.scale.prod() < 0) turnInsideOut(mesh_);
-  return true;
+  if (model_ == nullptr) return true;
+  warnAbout(imported.model);
+  return imported.model.part_count == 0 || takeModel(imported.model);
+}
+
+ModelMaterial materialOf(const ImportedMaterial& from) {
+  ModelMaterial material;
+  material.color = Vec3(from.color[0], from.color[1], from.color[2]);
+  material.roughness = from.roughness, material.metallic = from.metallic, material.relief = from.relief;
+  material.color_map = from.color_map, material.normal_map = from.normal_map;
+  material.roughness_map = from.roughness_map;
+  return material;
+}
+
+bool Import::takeModel(const ImportedModel& imported) {
+  model_->file = file_;
+  const Eigen::Vector3f scale = options_.scale.cast<float>();
+  model_->vertices.resize(imported.vertex_count);
+  for (std::size_t v = 0; v < imported.vertex_count; ++v) {
+    const float* const from = imported.vertices + ImportedModel::kFloats * v;
+    ModelVertex& to = model_->vertices[v];
+    const Eigen::Vector3f normal = Eigen::Map<const Eigen::Vector3f>(from + 3).cwiseQuotient(scale);
+    Eigen::Map<Eigen::Vector3f>(to.position.data()) = Eigen::Map<const Eigen::Vector3f>(from).cwiseProduct(scale);
+    Eigen::Map<Eigen::Vector3f>(to.normal.data()) = normal.isZero(0) ? normal : normal.normalized();
+    to.at = {from[6], from[7]};
+    std::copy_n(from + 8, 3, to.color.begin());
+  }
+  model_->corners.assign(imported.corners, imported.corners + imported.corner_count);
+  if (options_.scale.prod() < 0)
+    for (std::size_t c = 0; c + 2 < model_->corners.size(); c += 3)
+      std::swap(model_->corners[c], model_->corners[c + 1]);
+  for (std::size_t i = 0; i < imported.part_count; ++i) {
+    const ImportedPart& part = imported.parts[i];
+    model_->parts.push_back({part.first_vertex, part.vertex_count, part.first_corner, part.corner_count,
+                             materialOf(imported.materials[part.material])});
+  }
+  for (std::size_t i = 0; i < imported.texture_count; ++i) {
+    const ImportedTexture& from = imported.textures[i];
+    ModelTexture texture;
+    texture.name.assign(imported.text + from.name, from.name_size);
+    texture.bytes.assign(imported.text + from.bytes, from.bytes_size);
+    model_->textures.push_back(std::move(texture));
+  }
+  const std::size_t before = diagnostics_.errorCount();
+  checkTextures(*model_, where_, diagnostics_);
+  return diagnostics_.errorCount() == before;
+}
+
+void Import::warnAbout(const ImportedModel& imported) {
+  const auto unmapped = [&](const ImportedPart& part) { return imported.materials[part.material].unmapped != 0; };
+  if (std::any_of(imported.parts, imported.parts + imported.part_count, unmapped))
+    warn(kNoCoordinates, "a part of it has a texture and no texture coordinates", "it is drawn without that texture");
+  if (imported.missing_library != nullptr)
+    warn(kNoLibrary, std::string("its materials are missing: there is no file ") + imported.missing_library,
+         "it is drawn without them; copy that file to its place");
 }
 
 bool Import::checkNumbers() {
@@ -212,7 +275,16 @@ bool Import::checkClosed(const MeshReport& report) {
 
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics) {
-  return Import(file, options, where, diagnostics).run();
+  return Import(file, options, where, diagnostics, nullptr).run();
+}
+
+DrawnMesh importDrawn(const std::string& file, const ImportOptions& options, const SourceLocation& where,
+                      Diagnostics& diagnostics) {
+  const auto model = std::make_shared<Model>();
+  DrawnMesh drawn;
+  drawn.mesh = Import(file, options, where, diagnostics, model).run();
+  if (!drawn.mesh.triangles.empty() && !model->parts.empty()) drawn.model = model;
+  return drawn;
 }
 
 }  // namespace presa

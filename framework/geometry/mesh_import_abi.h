@@ -5,10 +5,46 @@
 /// framework depends on no header of the mesh library.
 namespace presa {
 
-inline constexpr std::uint32_t kMeshImportAbi = 2;
+inline constexpr std::uint32_t kMeshImportAbi = 3;
 
 /// Maximum size of all files of one mesh together [bytes]: five million triangles as binary STL.
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{256} << 20U;
+
+/// A range of drawn vertices and of their corners, of one material.
+struct ImportedPart {
+  std::uint32_t first_vertex = 0, vertex_count = 0, first_corner = 0, corner_count = 0, material = 0;
+};
+
+/// As ModelMaterial (model.h).
+struct ImportedMaterial {
+  float color[3] = {1, 1, 1};
+  float roughness = 0.9F, metallic = 0, relief = 1;
+  std::int32_t color_map = -1, normal_map = -1, roughness_map = -1;
+  std::uint32_t unmapped = 0;  ///< 1: its maps are left out because a mesh lacks texture coordinates
+};
+
+/// Ranges of ImportedModel::text.
+struct ImportedTexture {
+  std::uint64_t name = 0, name_size = 0, bytes = 0, bytes_size = 0;  ///< no bytes: a file of that name
+};
+
+/// What a file says about colours. No parts: nothing.
+struct ImportedModel {
+  static constexpr std::size_t kFloats = 11;  ///< of a vertex: position, normal (0: none), texture coordinates, colour
+  const float* vertices = nullptr;
+  std::uint64_t vertex_count = 0;
+  const std::uint32_t* corners = nullptr;  ///< three per triangle; all of them exist
+  std::uint64_t corner_count = 0;
+  const ImportedPart* parts = nullptr;
+  std::uint64_t part_count = 0;
+  const ImportedMaterial* materials = nullptr;
+  std::uint64_t material_count = 0;
+  const ImportedTexture* textures = nullptr;
+  std::uint64_t texture_count = 0;
+  const char* text = nullptr;
+  std::uint64_t text_size = 0;
+  const char* missing_library = nullptr;  ///< file of materials that is not there; null: none
+};
 
 /// Triangles as stored in the file: not welded, not scaled, not checked. Frame: the file's, turned to z up. Unit: m.
 struct ImportedMesh {
@@ -21,11 +57,12 @@ struct ImportedMesh {
   const std::int32_t* indices = nullptr;  ///< three per triangle; may name vertices that do not exist
   std::uint64_t triangle_count = 0;
   std::uint64_t ignored_faces = 0;  ///< points and lines, which are skipped
+  ImportedModel model;              ///< only when it is asked for
 };
 
-/// Symbol kMeshImportSymbol: reads `file` in the format `extension` (lower case, no dot). Never null; throws only
-/// std::bad_alloc. Thread: any.
-using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension);
+/// Symbol kMeshImportSymbol: reads `file` in the format `extension` (lower case, no dot); `drawn`: with its model. Never
+/// null; throws only std::bad_alloc. Thread: any.
+using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension, bool drawn);
 /// Symbol kMeshReleaseSymbol: frees a result.
 using ReleaseMeshFunction = void (*)(const ImportedMesh*);
 

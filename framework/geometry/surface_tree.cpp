@@ -58,12 +58,13 @@ std::size_t SurfaceTree::build(std::size_t begin, std::size_t end) {
   return index;
 }
 
-double SurfaceTree::search(std::size_t index, const Vec3& p, double best) const {
+double SurfaceTree::search(std::size_t index, const Vec3& p, double best, std::size_t& triangle) const {
   const Node& node = nodes_[index];
   if (node.right == 0) {
     for (std::size_t i = node.begin; i < node.end; ++i) {
       const std::size_t t = order_[i];
-      best = std::min(best, (p - closestOnTriangle(p, corner(t, 0), corner(t, 1), corner(t, 2))).squaredNorm());
+      const double here = (p - closestOnTriangle(p, corner(t, 0), corner(t, 1), corner(t, 2))).squaredNorm();
+      if (here < best) best = here, triangle = t;
     }
     return best;
   }
@@ -73,8 +74,8 @@ double SurfaceTree::search(std::size_t index, const Vec3& p, double best) const 
     std::swap(near, far);
     std::swap(near_distance, far_distance);
   }
-  if (near_distance < best) best = search(near, p, best);
-  if (far_distance < best) best = search(far, p, best);
+  if (near_distance < best) best = search(near, p, best, triangle);
+  if (far_distance < best) best = search(far, p, best, triangle);
   return best;
 }
 

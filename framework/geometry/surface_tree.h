@@ -12,7 +12,16 @@ class SurfaceTree {
   explicit SurfaceTree(const TriMesh& mesh);
 
   /// Squared distance of p from the mesh [m^2], or `bound` when it is larger.
-  double squaredDistance(const Vec3& p, double bound) const { return search(0, p, bound); }
+  double squaredDistance(const Vec3& p, double bound) const {
+    std::size_t ignored = 0;
+    return search(0, p, bound, ignored);
+  }
+  /// The triangle nearest to p.
+  std::size_t nearest(const Vec3& p) const {
+    std::size_t triangle = 0;
+    search(0, p, 1e300, triangle);
+    return triangle;
+  }
   /// Distance along `direction` (unit) at which a ray from p first meets the mesh [m]; `bound` when it is larger.
   double firstHit(const Vec3& p, const Vec3& direction, double bound) const;
   /// Whether p is inside of a closed mesh: most of three rays cross it an odd number of times.
@@ -35,7 +44,7 @@ class SurfaceTree {
     return mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[triangle][i])];
   }
   std::size_t build(std::size_t begin, std::size_t end);
-  double search(std::size_t index, const Vec3& p, double best) const;
+  double search(std::size_t index, const Vec3& p, double best, std::size_t& triangle) const;
   void follow(std::size_t index, Ray& ray) const;
 
   const TriMesh& mesh_;

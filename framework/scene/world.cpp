@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "framework/geometry/convex.h"
+#include "framework/geometry/model.h"
 #include "framework/input/folders.h"
 #include "framework/scene/inertia.h"
 #include "framework/scene/piece_cache.h"
@@ -25,7 +26,9 @@ struct MeshRequest {
   MeshRef ref;
   ImportOptions options;
   SourceLocation where;
-  MeshPointer mesh;
+  bool drawn = false;  ///< one of its users is a visual geometry, which takes colours and textures from it
+  MeshPointer mesh = nullptr;
+  std::shared_ptr<const Model> model = nullptr;
 };
 
 bool isDecomposed(const std::optional<Geometry>& geometry) {
@@ -48,9 +51,10 @@ class MeshLibrary {
     const auto same = [&](const MeshRequest& r) { return r.ref.file == ref->file && r.ref.scale == ref->scale; };
     const auto found = std::ranges::find_if(requests_, same);
     if (found == requests_.end()) {
-      requests_.push_back({*ref, options, where, nullptr});
+      requests_.push_back({*ref, options, where, options.display_only});
       return static_cast<int>(requests_.size()) - 1;
     }
+    found->drawn = found->drawn || options.display_only;
     if (strictness(options) > strictness(found->options)) {
       found->options = options;
       found->where = where;
@@ -61,14 +65,20 @@ class MeshLibrary {
   void importAll(Diagnostics& diagnostics) {
     for (MeshRequest& request : requests_) {
       if (!input::checkNamed(request.where, request.ref.file, diagnostics)) continue;
-      TriMesh mesh = importMesh(request.ref.file, request.options, request.where, diagnostics);
-      if (!mesh.triangles.empty()) request.mesh = std::make_shared<const TriMesh>(std::move(mesh));
+      DrawnMesh read =
+          request.drawn ? importDrawn(request.ref.file, request.options, request.where, diagnostics)
+                        : DrawnMesh{importMesh(request.ref.file, request.options, request.where, diagnostics), nullptr};
+      request.model = std::move(read.model);
+      if (!read.mesh.triangles.empty()) request.mesh = std::make_shared<const TriMesh>(std::move(read.mesh));
     }
   }
 
   /// Null when there is no mesh or it could not be read.
   MeshPointer get(int request) const {
     return request < 0 ? nullptr : requests_[static_cast<std::size_t>(request)].mesh;
+  }
+  std::shared_ptr<const Model> model(int request) const {
+    return request < 0 ? nullptr : requests_[static_cast<std::size_t>(request)].model;
   }
 
  private:
@@ -178,6 +188,7 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
     const auto& [visual, haptic, physics] = requests[b];
     world.meshes.push_back({library.get(visual), library.get(haptic), library.get(physics), nullptr});
     BodyMeshes& meshes = world.meshes.back();
+    meshes.model = library.model(visual);
     for (const int part : part_requests[b]) meshes.parts.push_back(library.get(part));
     // an unreadable physics mesh has been reported; checking its mass would only add a second finding
     const bool unread = (physics >= 0 && !meshes.physics) ||

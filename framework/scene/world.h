@@ -8,6 +8,8 @@
 
 namespace presa {
 
+struct Model;  // framework/geometry/model.h
+
 /// A mesh cut into convex pieces.
 struct ConvexPieces {
   std::vector<std::shared_ptr<const TriMesh>> pieces;
@@ -20,6 +22,7 @@ struct BodyMeshes {
   std::shared_ptr<const MeshTree> haptic_tree;          ///< hierarchy over `haptic`; null when no finger can touch it
   std::vector<std::shared_ptr<const TriMesh>> parts{};  ///< physics, of a Compound: by part; else empty
   std::vector<ConvexPieces> decomposed{};  ///< physics, by shape, no pieces: as it is; empty: none is decomposed
+  std::shared_ptr<const Model> model{};    ///< of `visual`, for the view alone; null: its file says nothing of colours
 };
 
 /// Mass [kg], centre of mass in the body frame [m], inertia about it in body axes [kg m^2]. Zero mass: fixed body.

@@ -44,13 +44,42 @@ struct CornerTable {
   }
 };
 
-}  // namespace
+/// The normal of a corner: of the triangles around its vertex that meet its own at less than the crease angle.
+Eigen::Vector3f normalAt(const Corner& corner, std::size_t v, const std::vector<Face>& faces, const CornerTable& table,
+                         double smooth_above) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t o = table.first[v]; o < table.first[v + 1]; ++o) {
+    const Face& other = faces[table.corners[o].triangle];
+    if (other.normal.dot(faces[corner.triangle].normal) > smooth_above)
+      sum += other.angle[table.corners[o].side] * other.normal;
+  }
+  return sum.normalized().cast<float>();
+}
 
-ShadedMesh shadeWithCreases(const TriMesh& mesh, double crease_angle) {
+std::vector<Face> facesOf(const TriMesh& mesh) {
   std::vector<Face> faces;
   faces.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) faces.push_back(faceOf(mesh, triangle));
+  return faces;
+}
 
+}  // namespace
+
+std::vector<Eigen::Vector3f> cornerNormals(const TriMesh& mesh, double crease_angle) {
+  const std::vector<Face> faces = facesOf(mesh);
+  const CornerTable table(mesh);
+  std::vector<Eigen::Vector3f> normals(3 * mesh.triangles.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::size_t c = table.first[v]; c < table.first[v + 1]; ++c) {
+      const Corner& corner = table.corners[c];
+      normals[3 * corner.triangle + corner.side] = normalAt(corner, v, faces, table, std::cos(crease_angle));
+    }
+  }
+  return normals;
+}
+
+ShadedMesh shadeWithCreases(const TriMesh& mesh, double crease_angle) {
+  const std::vector<Face> faces = facesOf(mesh);
   const CornerTable table(mesh);
   const double smooth_above = std::cos(crease_angle);
   ShadedMesh out;
@@ -59,13 +88,7 @@ ShadedMesh shadeWithCreases(const TriMesh& mesh, double crease_angle) {
     const std::size_t begin = out.positions.size();
     for (std::size_t c = table.first[v]; c < table.first[v + 1]; ++c) {
       const Corner& corner = table.corners[c];
-      Vec3 sum = Vec3::Zero();
-      for (std::size_t o = table.first[v]; o < table.first[v + 1]; ++o) {
-        const Face& other = faces[table.corners[o].triangle];
-        if (other.normal.dot(faces[corner.triangle].normal) > smooth_above)
-          sum += other.angle[table.corners[o].side] * other.normal;
-      }
-      const Eigen::Vector3f normal = sum.normalized().cast<float>();
+      const Eigen::Vector3f normal = normalAt(corner, v, faces, table, smooth_above);
       std::size_t at = begin;
       while (at < out.normals.size() && (out.normals[at] - normal).squaredNorm() > 1e-10F) ++at;
       if (at == out.normals.size()) {

@@ -54,7 +54,8 @@ Guides::Outline Guides::makeOutline(const Vec3& color) {
   outline.place->setDataVariance(osg::Object::DYNAMIC);
   outline.place->setNodeMask(0);
   osg::StateSet* state = outline.place->getOrCreateStateSet();
-  state->setAttributeAndModes(shaders::cone());
+  // a model has programs of its own
+  state->setAttributeAndModes(shaders::cone(), osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
   state->setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA));
   state->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0, 1, false));
   state->setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));

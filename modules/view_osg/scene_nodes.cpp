@@ -15,6 +15,7 @@
 #include "modules/view_osg/fewer_facets.h"
 #include "modules/view_osg/geometry_nodes.h"
 #include "modules/view_osg/grain.h"
+#include "modules/view_osg/models/model_node.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/shaders.h"
 
@@ -38,6 +39,11 @@ osg::ref_ptr<osg::Node> makeShape(const World& world, std::size_t i, bool quick)
   if (shown == nullptr) return nullptr;
   if (std::holds_alternative<Compound>(shown->shape))
     return physicsNode(body, meshes, world.scene.materialOf(body).color, quick ? kQuick : kFine);
+  if (body.visual && meshes.model) {
+    osg::ref_ptr<osg::MatrixTransform> X_BG = new osg::MatrixTransform(toOsg(shown->X_BG));
+    X_BG->addChild(modelNode(meshes.model, quick));
+    return X_BG;
+  }
   const TriMesh* mesh = shownMesh(body, meshes);
   if (quick && mesh != nullptr && meshes.haptic && meshes.haptic->triangles.size() < mesh->triangles.size()) {
     shown = &*body.haptic;

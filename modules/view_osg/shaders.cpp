@@ -12,8 +12,16 @@ out vec3 normal_W;
 out vec3 to_eye_W;
 out vec4 base;
 out vec3 position_B;
+#ifdef MODEL
+out vec2 map_at;
+out vec4 tangent_W;
+#endif
 void main() {
   position_B = gl_Vertex.xyz;
+#ifdef MODEL
+  map_at = gl_MultiTexCoord0.xy;
+  tangent_W = vec4(mat3(osg_ViewMatrixInverse) * (mat3(gl_ModelViewMatrix) * gl_MultiTexCoord1.xyz), gl_MultiTexCoord1.w);
+#endif
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   position_W = (osg_ViewMatrixInverse * eye).xyz;
   normal_W = mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal);
@@ -136,6 +144,20 @@ vec3 lit(vec3 albedo, vec3 n, vec3 p, vec3 to_eye, float gloss) {
   return albedo * daylight(n, key, skyShare(n, p)) + vec3(shine);
 }
 
+#ifdef MODEL
+// n: with relief; face: of the surface, on which shadows fall
+vec3 litModel(vec3 albedo, vec3 n, vec3 face, vec3 p, vec3 to_eye, float rough, float metal) {
+  float facing = max(dot(face, key_direction), 0.0);
+  float seen = facing > 0.0 ? keyShare(face, p) / facing * smoothstep(0.0, 0.15, facing) : 0.0;
+  float key = max(dot(n, key_direction), 0.0) * seen, open = skyShare(face, p);
+  float alpha = max(rough * rough, 0.03), power = 2.0 / (alpha * alpha) - 2.0;
+  vec3 mirror = mix(vec3(0.04), albedo, metal), half_way = normalize(key_direction + to_eye);
+  float lobe = (power + 2.0) / 8.0 * pow(max(dot(n, half_way), 0.0), power) * key;
+  vec3 around = metal * mirror * daylight(reflect(-to_eye, n), 0.0, open);
+  return albedo * (1.0 - metal) * daylight(n, key, open) + mirror * lobe + around;
+}
+#endif
+
 float gridLine(vec2 p, float spacing, float strength) {
   vec2 g = p / spacing;
   vec2 width = fwidth(g);
@@ -206,6 +228,32 @@ void main() {
 }
 )";
 
+constexpr const char* kModel = R"(
+uniform sampler2D color_map, normal_map, rough_map;
+uniform float relief, roughness, metallic;
+in vec2 map_at;
+in vec4 tangent_W;
+vec3 litModel(vec3 albedo, vec3 n, vec3 face, vec3 p, vec3 to_eye, float rough, float metal);
+void main() {
+  vec3 face = normalize(normal_W), n = face, albedo = base.rgb;
+  float rough = roughness, metal = metallic;
+#ifdef COLOR_MAP
+  albedo *= texture(color_map, map_at).rgb;  // sRGB, decoded by the texture unit
+#endif
+#ifdef NORMAL_MAP
+  vec3 n_T = texture(normal_map, map_at).rgb * 2.0 - 1.0;
+  vec3 t = normalize(tangent_W.xyz - face * dot(face, tangent_W.xyz)), b = sign(tangent_W.w) * cross(face, t);
+  n = normalize(relief * (n_T.x * t + n_T.y * b) + n_T.z * face);
+#endif
+#ifdef ROUGH_MAP
+  vec3 shares = texture(rough_map, map_at).rgb;
+  rough *= shares.g;
+  metal *= shares.b;
+#endif
+  gl_FragColor = vec4(toDisplay(litModel(albedo, n, face, position_W, normalize(to_eye_W), rough, metal)), 1.0);
+}
+)";
+
 constexpr const char* kFloor = R"(
 uniform vec3 floor_center;
 uniform float floor_radius;
@@ -238,25 +286,46 @@ out vec3 at;              // of the texture
 #ifdef OPEN
 out vec3 far_away;
 #endif
+#ifdef MODEL
+out vec2 map_at;
+#ifdef COLOR_MAP
+uniform vec3 map_mean;
+#endif
+#ifdef NORMAL_MAP
+out vec3 key_T;  // direction of the key light in the tangent frame
+#endif
+#endif
 vec3 toDisplay(vec3 linear);
 vec3 daylight(vec3 n, float key, float open);
 vec3 landColor(vec3 n);
 void main() {
+  vec3 albedo = gl_Color.rgb;
+#ifdef COLOR_MAP
+  albedo *= map_mean;
+#endif
   vec4 eye = gl_ModelViewMatrix * gl_Vertex;
   vec3 p = (osg_ViewMatrixInverse * eye).xyz;
   vec3 n = normalize(mat3(osg_ViewMatrixInverse) * (gl_NormalMatrix * gl_Normal));
   float key = max(dot(n, key_direction), 0.0);
   vec3 half_way = normalize(key_direction + normalize(osg_ViewMatrixInverse[3].xyz - p));
   float shine = GLOSS > 0.0 ? 0.5 * GLOSS * pow(max(dot(n, half_way), 0.0), 48.0) * key : 0.0;
-  sunny = toDisplay(gl_Color.rgb * daylight(n, key, 1.0) + vec3(shine));
-  shaded = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0));
+  sunny = toDisplay(albedo * daylight(n, key, 1.0) + vec3(shine));
+  shaded = toDisplay(albedo * daylight(n, 0.0, 1.0));
 #ifdef OPEN
   far_away = toDisplay(landColor(vec3(0, 0, 1)));
 #endif
-  closed = toDisplay(gl_Color.rgb * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
+  closed = toDisplay(albedo * daylight(n, 0.0, 1.0 - 0.72 * (0.5 + 0.5 * n.z)));
   key_at = (key_matrix * vec4(p + n * (0.0008 + 0.0015 * (1.0 - key)), 1.0)).xyz;
   sky_at = (sky_matrix * vec4(p + n * 0.0015, 1.0)).xyz;
   at = GRAIN == 1 ? gl_Vertex.xyz + grain_offset : vec3(p.xy, n.z > 0.99 ? 1.0 : 0.0);
+#ifdef MODEL
+  map_at = gl_MultiTexCoord0.xy;
+#ifdef NORMAL_MAP
+  vec3 t = mat3(osg_ViewMatrixInverse) * (mat3(gl_ModelViewMatrix) * gl_MultiTexCoord1.xyz);
+  t = normalize(t - n * dot(n, t));
+  key_T = vec3(dot(t, key_direction), gl_MultiTexCoord1.w * dot(cross(n, t), key_direction), dot(n, key_direction));
+#endif
+#endif
   gl_Position = gl_ProjectionMatrix * eye;
 }
 )";
@@ -271,6 +340,18 @@ in vec3 key_at, sky_at;
 in vec3 at;
 #ifdef OPEN
 in vec3 far_away;
+#endif
+#ifdef MODEL
+in vec2 map_at;
+#ifdef COLOR_MAP
+uniform sampler2D color_map;
+uniform vec3 map_gain;
+#endif
+#ifdef NORMAL_MAP
+uniform sampler2D normal_map;
+uniform float relief;
+in vec3 key_T;
+#endif
 #endif
 uniform vec3 floor_center;
 uniform float floor_radius;
@@ -295,7 +376,16 @@ void main() {
 #ifdef OPEN
   vec3 color = sunny;
 #else
-  vec3 color = mix(mix(closed, shaded, share(sky_map, sky_at)), sunny, share(key_map, key_at));
+  float key = share(key_map, key_at);
+#ifdef NORMAL_MAP
+  // the share of the key light that the relief receives, relative to the surface without it
+  vec3 n_T = texture(normal_map, map_at).rgb * 2.0 - 1.0;
+  key *= clamp(dot(vec3(relief * n_T.xy, n_T.z), key_T) / max(key_T.z, 0.15), 0.0, 1.6);
+#endif
+  vec3 color = mix(mix(closed, shaded, share(sky_map, sky_at)), sunny, key);
+#ifdef COLOR_MAP
+  color *= map_gain * texture(color_map, map_at).rgb;
+#endif
 #endif
 #if GRAIN == 1
   vec4 cloud = texture(grain_map, 5.5 * at);
@@ -445,12 +535,19 @@ std::string grainOf(Material::Texture texture) {
   return "#define GRAIN " + std::to_string(static_cast<int>(texture)) + "\n";
 }
 
-osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material::Texture texture = {}) {
+std::string mapsOf(const Maps& maps) {
+  return std::string("#define MODEL\n") + (maps.color ? "#define COLOR_MAP\n" : "") +
+         (maps.normal ? "#define NORMAL_MAP\n" : "") + (maps.roughness ? "#define ROUGH_MAP\n" : "");
+}
+
+/// `more`: further definitions.
+osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material::Texture texture = {},
+                                   const std::string& more = {}) {
   const bool plain = texture == Material::Texture::kNone;
-  const std::string definitions = grainOf(texture) + "#define GLOSS " + (plain ? "0.35" : "0.04") + "\n";
+  const std::string definitions = grainOf(texture) + "#define GLOSS " + (plain ? "0.35" : "0.04") + "\n" + more;
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
-  program->addShader(new osg::Shader(osg::Shader::VERTEX, kVertex));
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, defined(kVertex, definitions)));
   for (const char* part : {kSky, kDaylight, kLand, kLight}) program->addShader(fragments(part, definitions));
   if (!plain) program->addShader(fragments(kGrain, definitions));
   program->addShader(fragments(std::string(kSurfaceDeclarations) + main, definitions));
@@ -458,9 +555,9 @@ osg::ref_ptr<osg::Program> surface(const char* name, const char* main, Material:
 }
 
 osg::ref_ptr<osg::Program> quickSurface(const char* name, Material::Texture texture, bool shiny, bool grid,
-                                        bool open = false) {
+                                        bool open = false, const std::string& more = {}) {
   const std::string definitions = grainOf(texture) + "#define GLOSS " + (shiny ? "0.35" : "0.0") + "\n" +
-                                  (grid ? "#define GRID 1\n" : "") + (open ? "#define OPEN\n" : "");
+                                  (grid ? "#define GRID 1\n" : "") + (open ? "#define OPEN\n" : "") + more;
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
   for (const char* part : {kSky, kDaylight, kLand, kQuickVertex})
@@ -483,6 +580,10 @@ osg::ref_ptr<osg::Program> copying(const char* name, const std::string& fragment
 osg::ref_ptr<osg::Program> body(Material::Texture texture) { return surface("body", kBody, texture); }
 osg::ref_ptr<osg::Program> quickBody(Material::Texture texture, bool grid) {
   return quickSurface("body", texture, texture == Material::Texture::kNone, grid);
+}
+osg::ref_ptr<osg::Program> model(const Maps& maps, bool quick) {
+  return quick ? quickSurface("model", {}, false, false, false, mapsOf(maps))
+               : surface("model", kModel, {}, mapsOf(maps));
 }
 osg::ref_ptr<osg::Program> floor(Material::Texture texture) { return surface("floor", kFloor, texture); }
 osg::ref_ptr<osg::Program> quickFloor(Material::Texture texture, bool open) {

@@ -10,6 +10,13 @@ namespace presa::view::shaders {
 /// Bodies: key light with soft shadow, sky light with soft occlusion. Uniform `grid_strength`: 1 draws lines on upward
 /// faces.
 osg::ref_ptr<osg::Program> body(Material::Texture texture);
+/// The maps that a part of a model has.
+struct Maps {
+  bool color = false, normal = false, roughness = false;
+};
+/// A part of a model (models/README.md): colour of vertices and of the maps. Uniforms `color_map`, `normal_map`, `rough_map`,
+/// `relief`, `roughness`, `metallic`; quick: `map_mean`, `map_gain`. Texture coordinates 0, tangents 1.
+osg::ref_ptr<osg::Program> model(const Maps& maps, bool quick);
 /// Floor: like a body, fading into the background with distance.
 osg::ref_ptr<osg::Program> floor(Material::Texture texture);
 /// For software rendering: light computed at the vertices, soft shadows with one sample of each map. `grid`: lines on all faces;

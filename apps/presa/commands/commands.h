@@ -11,6 +11,7 @@ void addExplain(Command app, int& status);
 void addPlugins(Command app, int& status);
 void addSchema(Command app, int& status);
 void addNew(Command app, int& status);
+void addModel(Command app, int& status);
 void addReplay(Command app, int& status);
 void addView(Command app, int& status);
 void addBus(Command app, int& status);

@@ -6,6 +6,7 @@
 
 #include "apps/presa/replay_page/packed.h"
 #include "framework/geometry/decimate.h"
+#include "framework/geometry/model.h"
 #include "framework/scene/physics_shapes.h"
 
 namespace presa::replay_page {
@@ -99,6 +100,20 @@ json shapeOf(const DrawnShape& drawn, MeshTable& meshes) {
 
 json colorOf(const Vec3& color) { return {color.x(), color.y(), color.z()}; }
 
+/// The mean colour of a body's model, where its vertices and materials tell it; textures are not decoded here.
+Vec3 shownColor(const Material& material, const Model* model) {
+  if (model == nullptr) return material.color;
+  Vec3 sum = Vec3::Zero();
+  for (const Model::Part& part : model->parts) {
+    if (part.material.color_map >= 0) return material.color;
+    for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
+      const std::array<float, 3>& c = model->vertices[v].color;
+      sum += Vec3(c[0], c[1], c[2]).cwiseProduct(part.material.color);
+    }
+  }
+  return sum / static_cast<double>(model->vertices.size());
+}
+
 json partsOf(const PageFigures& figures, MeshTable& meshes) {
   json parts = json::array();
   for (const PageFigure& figure : figures) {
@@ -135,7 +150,7 @@ json shapesOf(const World& world, const PageFigures& figures) {
       floor = std::min(floor, lowestOf(drawn, body.X_WB));
     }
     bodies.push_back({{"name", body.name},
-                      {"color", colorOf(material.color)},
+                      {"color", colorOf(shownColor(material, world.meshes[b].model.get()))},
                       {"mu", material.friction_static},
                       {"pose", poseOf(body.X_WB)},
                       {"fixed", body.fixed},

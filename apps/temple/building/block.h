@@ -20,6 +20,13 @@ enum class BlockKind {
   kTile,
 };
 
+/// A photographed model in place of Block::visual (apps/temple/models).
+struct BlockModel {
+  std::string file;           ///< absolute path
+  Vec3 scale = Vec3::Ones();  ///< of its axes, to metres
+  Vec3 p_BM = Vec3::Zero();   ///< its origin in the block's frame [m]
+};
+
 /// One stone of the building. Its frame B is at the centre of its physics shape, z up in the finished building.
 struct Block {
   std::string name;
@@ -31,6 +38,7 @@ struct Block {
   TriMesh haptic;        ///< flutes, dowel holes and chips, with fewer facets
   Shape physics;         ///< encloses both and shares their bearing faces; a MeshRef stands for `physics_mesh`
   TriMesh physics_mesh;  ///< convex; empty when `physics` is a primitive
+  std::optional<BlockModel> model;
 };
 
 /// A fixed box: a step that the building stands on.

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/temple/building/assembly_text.h"
+#include "framework/geometry/obj_text.h"
 
 namespace presa::temple {
 namespace {
@@ -21,6 +22,13 @@ namespace {
 std::string poseText(const Pose& X) {
   return format("pos=\"%.17g %.17g %.17g\" quat=\"%.17g %.17g %.17g %.17g\"", X.p.x(), X.p.y(), X.p.z(), X.q.w(),
                 X.q.x(), X.q.y(), X.q.z());
+}
+
+/// For an attribute: a folder's name may hold anything.
+std::string xmlText(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '&' ? "&amp;" : c == '"' ? "&quot;" : c == '<' ? "&lt;" : std::string(1, c);
+  return out;
 }
 
 std::string meshName(const Block& block, const char* role) { return "meshes/" + block.name + "_" + role + ".obj"; }
@@ -57,12 +65,19 @@ const char* materialOf(BlockKind kind, bool painted) {
   return kind == BlockKind::kMetope ? "painted_red" : "marble";
 }
 
+std::string visualText(const Block& block) {
+  if (!block.model) return "<visual><mesh file=\"" + meshName(block, "visual") + "\"/></visual>";
+  const auto& [file, scale, p] = *block.model;
+  return format("<visual pos=\"%.9g %.9g %.9g\"><mesh file=\"", p.x(), p.y(), p.z()) + xmlText(file) +
+         format("\" scale=\"%.9g %.9g %.9g\"/></visual>", scale.x(), scale.y(), scale.z());
+}
+
 std::string bodyText(const Block& block, const SceneSpec::Stone& stone, const SceneSpec& spec) {
   const bool physics_only = spec.physics_only;
   std::string text = "  <body name=\"" + block.name + "\" material=\"" + materialOf(block.kind, spec.painted) + "\" " +
                      (stone.fixed ? "fixed=\"true\" " : "") + poseText(stone.X_WB) + ">\n";
   if (!physics_only) {
-    text += "    <visual><mesh file=\"" + meshName(block, "visual") + "\"/></visual>\n";
+    text += "    " + visualText(block) + "\n";
     text += "    <haptic><mesh file=\"" + meshName(block, "haptic") + "\"/></haptic>\n";
   }
   text += stone.fixed ? "    <physics>" : format("    <physics mass=\"%.6g\">", block.mass);
@@ -73,13 +88,6 @@ std::string footingText(const std::string& name, const char* material, const Pos
   const std::string box = format("<box size=\"%.9g %.9g %.9g\"/>", size.x(), size.y(), size.z());
   return "  <body name=\"" + name + "\" fixed=\"true\" material=\"" + material + "\" " + poseText(X_WB) +
          ">\n    <haptic>" + box + "</haptic>\n    <physics>" + box + "</physics>\n  </body>\n";
-}
-
-std::string objText(const TriMesh& mesh) {
-  std::string text;
-  for (const Vec3& v : mesh.vertices) text += format("v %.8g %.8g %.8g\n", v.x(), v.y(), v.z());
-  for (const TriMesh::Triangle& t : mesh.triangles) text += format("f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
-  return text;
 }
 
 }  // namespace
@@ -132,7 +140,7 @@ std::vector<SceneFile> meshFiles(const Building& building, bool physics_only) {
   std::vector<SceneFile> files;
   for (const Block& block : building.blocks) {
     if (!physics_only) {
-      files.push_back({meshName(block, "visual"), objText(block.visual)});
+      if (!block.model) files.push_back({meshName(block, "visual"), objText(block.visual)});
       files.push_back({meshName(block, "haptic"), objText(block.haptic)});
     }
     if (!block.physics_mesh.triangles.empty())

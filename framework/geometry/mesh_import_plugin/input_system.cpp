@@ -60,7 +60,11 @@ void InputSystem::refuse(int code, const std::string& what, const std::string& h
 bool InputSystem::Exists(const char* file) const { return exists(file); }
 
 Assimp::IOStream* InputSystem::Open(const char* file, const char* mode) {
-  if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos || !exists(file)) return nullptr;
+  if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
+  if (!exists(file)) {
+    if (missing_library_.empty() && std::filesystem::path(file).extension() == ".mtl") missing_library_ = file;
+    return nullptr;
+  }
   if (file != mesh_ && !input::mayName(folder_, file)) {
     refuse(input::kOutside, input::outside(folder_, file), input::kOutsideHelp);
     return nullptr;
@@ -72,6 +76,7 @@ Assimp::IOStream* InputSystem::Open(const char* file, const char* mode) {
            refusal.help);
     return nullptr;
   }
+  if (std::filesystem::path(file).extension() == ".mtl") missing_library_.clear();  // found under another name
   // assimp may open a file several times; Close returns its bytes to the budget
   left_ -= text->size();
   return new Bytes(std::move(*text));

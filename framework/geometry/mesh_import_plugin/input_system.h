@@ -21,11 +21,13 @@ class InputSystem final : public Assimp::IOSystem {
   void Close(Assimp::IOStream* stream) override;
   /// The first file that existed and was refused.
   const std::optional<RawMesh::Problem>& problem() const { return problem_; }
+  /// The first file of materials (MTL) that was asked for and is not there; "": none.
+  const std::string& missingLibrary() const { return missing_library_; }
 
  private:
   void refuse(int code, const std::string& what, const std::string& help);
 
-  std::string mesh_, folder_;
+  std::string mesh_, folder_, missing_library_;
   std::uint64_t left_;
   std::optional<RawMesh::Problem> problem_;
 };

@@ -20,11 +20,14 @@
 namespace presa {
 namespace {
 
-/// Sizes of the arrays that follow in the pipe: problem, help, coordinates, indices.
-struct Header {
-  std::uint64_t problem = 0, help = 0, coordinates = 0, indices = 0, ignored_faces = 0;
-  std::int64_t code = 0;
-};
+/// The arrays of a mesh, in the order in which they go through the pipe.
+template <class Visit>
+bool eachArray(RawMesh& mesh, const Visit& visit) {
+  RawModel& model = mesh.model;
+  return visit(mesh.problem) && visit(mesh.help) && visit(mesh.coordinates) && visit(mesh.indices) &&
+         visit(model.vertices) && visit(model.corners) && visit(model.parts) && visit(model.materials) &&
+         visit(model.textures) && visit(model.text) && visit(model.missing_library);
+}
 
 bool writeAll(int descriptor, const void* data, std::size_t size) {
   const char* bytes = static_cast<const char*>(data);
@@ -50,28 +53,23 @@ bool readAll(int descriptor, void* data, std::size_t size) {
   return true;
 }
 
-bool send(int descriptor, const RawMesh& mesh) {
-  const Header header{mesh.problem.size(), mesh.help.size(),   mesh.coordinates.size(),
-                      mesh.indices.size(), mesh.ignored_faces, mesh.code};
-  return writeAll(descriptor, &header, sizeof header) && writeAll(descriptor, mesh.problem.data(), header.problem) &&
-         writeAll(descriptor, mesh.help.data(), header.help) &&
-         writeAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
-         writeAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
+bool send(int descriptor, RawMesh& mesh) {
+  return writeAll(descriptor, &mesh.ignored_faces, sizeof mesh.ignored_faces) &&
+         writeAll(descriptor, &mesh.code, sizeof mesh.code) && eachArray(mesh, [&](const auto& array) {
+           const std::uint64_t count = array.size();
+           return writeAll(descriptor, &count, sizeof count) &&
+                  writeAll(descriptor, array.data(), count * sizeof *array.data());
+         });
 }
 
 bool receive(int descriptor, RawMesh& mesh) {
-  Header header;
-  if (!readAll(descriptor, &header, sizeof header)) return false;
-  mesh.problem.resize(header.problem);
-  mesh.help.resize(header.help);
-  mesh.code = static_cast<std::int32_t>(header.code);
-  mesh.coordinates.resize(header.coordinates);
-  mesh.indices.resize(header.indices);
-  mesh.ignored_faces = header.ignored_faces;
-  return readAll(descriptor, mesh.problem.data(), header.problem) &&
-         readAll(descriptor, mesh.help.data(), header.help) &&
-         readAll(descriptor, mesh.coordinates.data(), header.coordinates * sizeof(double)) &&
-         readAll(descriptor, mesh.indices.data(), header.indices * sizeof(std::int32_t));
+  return readAll(descriptor, &mesh.ignored_faces, sizeof mesh.ignored_faces) &&
+         readAll(descriptor, &mesh.code, sizeof mesh.code) && eachArray(mesh, [&](auto& array) {
+           std::uint64_t count = 0;
+           if (!readAll(descriptor, &count, sizeof count)) return false;
+           array.resize(count);
+           return readAll(descriptor, array.data(), count * sizeof *array.data());
+         });
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -30,6 +30,16 @@ struct OwnedMesh : ImportedMesh {
     indices = raw.indices.data();
     triangle_count = raw.indices.size() / 3;
     ignored_faces = raw.ignored_faces;
+    point(model, raw.model);
+  }
+  static void point(ImportedModel& to, const RawModel& from) {
+    to.vertices = from.vertices.data(), to.vertex_count = from.vertices.size() / ImportedModel::kFloats;
+    to.corners = from.corners.data(), to.corner_count = from.corners.size();
+    to.parts = from.parts.data(), to.part_count = from.parts.size();
+    to.materials = from.materials.data(), to.material_count = from.materials.size();
+    to.textures = from.textures.data(), to.texture_count = from.textures.size();
+    to.text = from.text.data(), to.text_size = from.text.size();
+    to.missing_library = from.missing_library.empty() ? nullptr : from.missing_library.c_str();
   }
   RawMesh raw;
 };
@@ -38,7 +48,8 @@ struct OwnedMesh : ImportedMesh {
 }  // namespace presa
 
 extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(const char* file,
-                                                                                             const char* extension) {
+                                                                                             const char* extension,
+                                                                                             bool drawn) {
   std::error_code unknown;
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
@@ -46,7 +57,7 @@ extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* pre
       std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMaxMemory),
       presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
   return new presa::OwnedMesh(
-      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, out); }));
+      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, drawn, out); }));
 }
 
 extern "C" __attribute__((visibility("default"))) void presaReleaseMesh(const presa::ImportedMesh* mesh) {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <assimp/Importer.hpp>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,7 +13,9 @@
 #include <set>
 #include <vector>
 
+#include "framework/geometry/mesh_import_plugin/equal_vertices.h"
 #include "framework/geometry/mesh_import_plugin/input_system.h"
+#include "framework/geometry/mesh_import_plugin/model_reader.h"
 
 namespace presa {
 namespace {
@@ -66,42 +67,16 @@ std::array<double, 3> place(const aiMatrix4x4& m, const aiVector3D& v) {
           m.c1 * x + m.c2 * y + m.c3 * z + m.c4};
 }
 
-/// Numbers the vertices of a mesh so that equal ones get one number. Assimp delivers a corner of n triangles n times in
-/// most formats; what is not sent through the pipe need not be welded.
-class EqualVertices {
- public:
-  explicit EqualVertices(const aiMesh& mesh)
-      : mesh_(mesh), table_(std::bit_ceil(2 * std::size_t{mesh.mNumVertices} + 1), kNone) {}
-
-  /// The first vertex that is equal to v, bit for bit; v itself if there was none before.
-  unsigned firstOf(unsigned v) {
-    const Bits bits = bitsOf(v);
-    std::uint64_t h = 0;
-    for (const std::uint32_t word : bits) h = (h ^ word) * 0x9e3779b97f4a7c15u, h ^= h >> 29;
-    const std::size_t mask = table_.size() - 1;
-    for (std::size_t at = h & mask;; at = (at + 1) & mask) {
-      if (table_[at] == kNone) return table_[at] = v;
-      if (bitsOf(table_[at]) == bits) return table_[at];
-    }
-  }
-
- private:
-  using Bits = std::array<std::uint32_t, 3>;
-  static constexpr unsigned kNone = ~0U;
-  Bits bitsOf(unsigned v) const {
-    const aiVector3D& p = mesh_.mVertices[v];
-    return {std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y), std::bit_cast<std::uint32_t>(p.z)};
-  }
-  const aiMesh& mesh_;
-  std::vector<unsigned> table_;  // open addressing; at most half full
-};
-
 /// Appends one instance of a mesh, placed by the accumulated transforms of its node.
 void append(const aiMesh& mesh, const aiMatrix4x4& placement, RawMesh& out) {
   if ((out.coordinates.size() / 3) + mesh.mNumVertices > std::size_t{std::numeric_limits<std::int32_t>::max()}) {
     throw std::bad_alloc();
   }
-  EqualVertices equal(mesh);
+  const auto at = [&](unsigned v) {
+    const aiVector3D& p = mesh.mVertices[v];
+    return std::array<float, 3>{p.x, p.y, p.z};
+  };
+  EqualVertices<3, decltype(at)> equal(mesh.mNumVertices, at);
   std::vector<std::int32_t> numbers(mesh.mNumVertices);
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
     const unsigned first = equal.firstOf(v);
@@ -139,7 +114,7 @@ void turnToZUp(std::vector<double>& coordinates) {
 
 }  // namespace
 
-void readMesh(const std::string& file, const std::string& extension, RawMesh& out) {
+void readMesh(const std::string& file, const std::string& extension, bool drawn, RawMesh& out) {
   InputSystem files(file);
   Assimp::Importer importer;
   keepReadersOf(importer, extension);
@@ -152,14 +127,19 @@ void readMesh(const std::string& file, const std::string& extension, RawMesh& ou
     out.help = files.problem()->help;
     return;
   }
-  if (scene != nullptr && sound(*scene)) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  const bool is_sound = scene != nullptr && sound(*scene);
+  if (is_sound) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) {
     const std::string reason = importer.GetErrorString();
     out.problem = reason.empty() ? "it cannot be read" : reason;
     return;
   }
   if (scene->mRootNode != nullptr) appendNode(*scene, *scene->mRootNode, aiMatrix4x4(), out);
-  if (extension == "dae" || extension == "gltf" || extension == "glb") turnToZUp(out.coordinates);
+  const bool z_up = extension == "dae" || extension == "gltf" || extension == "glb";
+  if (z_up) turnToZUp(out.coordinates);
+  if (!drawn || !is_sound) return;
+  readModel(*scene, extension, z_up, out.model);
+  out.model.missing_library = files.missingLibrary();
 }
 
 }  // namespace presa

@@ -3,7 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "framework/geometry/mesh_import_abi.h"
+
 namespace presa {
+
+/// What a file says about colours; as ImportedModel.
+struct RawModel {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> corners;
+  std::vector<ImportedPart> parts;
+  std::vector<ImportedMaterial> materials;
+  std::vector<ImportedTexture> textures;
+  std::string text, missing_library;
+};
 
 /// The triangles of a file, or the reason why it could not be read (`problem` is not empty).
 struct RawMesh {
@@ -16,9 +28,11 @@ struct RawMesh {
   std::uint64_t ignored_faces = 0;
   std::vector<double> coordinates;
   std::vector<std::int32_t> indices;
+  RawModel model;
 };
 
-/// Reads a mesh file with assimp. May throw; assimp may crash or not terminate on a damaged file, see isolation.h.
-void readMesh(const std::string& file, const std::string& extension, RawMesh& out);
+/// Reads a mesh file with assimp, `drawn`: with its model. May throw; assimp may crash or not terminate on a damaged
+/// file, see isolation.h.
+void readMesh(const std::string& file, const std::string& extension, bool drawn, RawMesh& out);
 
 }  // namespace presa

@@ -1,0 +1,67 @@
+#include "apps/temple/models/felt_cache.h"
+
+#include <bit>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "apps/common/atomic_file.h"
+#include "framework/core/math/fnv.h"
+#include "framework/geometry/obj_text.h"
+#include "framework/input/cache.h"
+
+namespace presa::temple {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kVersion = 1;  // of touchMesh
+
+std::string fileFor(const TriMesh& mesh, double max_error) {
+  const std::string folder = input::cacheFolder("felt");
+  if (folder.empty()) return {};
+  Fnv1a hash;
+  hash.addWord(kVersion);
+  hash.addWord(std::bit_cast<std::uint64_t>(max_error));
+  for (const Vec3& v : mesh.vertices)
+    for (const double x : v) hash.addWord(std::bit_cast<std::uint64_t>(x));
+  for (const TriMesh::Triangle& t : mesh.triangles)
+    for (const std::int32_t corner : t) hash.addWord(static_cast<std::uint32_t>(corner));
+  char name[40];
+  std::snprintf(name, sizeof name, "%016llx.obj", static_cast<unsigned long long>(hash.value()));
+  return (fs::path(folder) / name).string();
+}
+
+/// None: there is no such file, or it is no closed mesh any more. Its distance is measured anew, which takes less time than
+/// the search for the mesh.
+FeltMesh readKept(const std::string& file, const TriMesh& mesh, double max_error) {
+  std::error_code missing;
+  if (file.empty() || !fs::exists(file, missing)) return {};
+  Diagnostics ignored;
+  FeltMesh kept{importMesh(file, {}, {}, ignored), 0};
+  if (ignored.hasErrors() || kept.mesh.triangles.empty()) return {};
+  constexpr double kKnownTo = 0.02;
+  kept.distance = std::max(surfaceDistance(kept.mesh, mesh, kKnownTo * max_error).high,
+                           surfaceDistance(mesh, kept.mesh, kKnownTo * max_error).high);
+  return kept.distance <= max_error * (1 + kKnownTo) ? kept : FeltMesh{};
+}
+
+}  // namespace
+
+FeltMesh feltMesh(const TriMesh& mesh, double max_error) {
+  const std::string file = fileFor(mesh, max_error);
+  FeltMesh felt = readKept(file, mesh, max_error);
+  if (!felt.mesh.triangles.empty()) return felt;
+  const TouchMesh made = touchMesh(mesh, max_error);
+  try {
+    if (!file.empty()) {
+      fs::create_directories(fs::path(file).parent_path());
+      writeFileAtomically(file, objText(made.mesh));
+    }
+  } catch (const std::system_error&) {
+    return {made.mesh, made.distance()};  // without a cache
+  }
+  return {made.mesh, made.distance()};
+}
+
+}  // namespace presa::temple
