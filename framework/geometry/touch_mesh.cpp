@@ -16,7 +16,7 @@ constexpr double kKnownTo = 0.02;    // difference of the two bounds of a distan
 constexpr double kNearEnough = 1.1;  // of the numbers of triangles between which the search ends
 constexpr std::size_t kFewest = 8, kSteps = 10;
 constexpr std::size_t kCutTriangles = 4000;   // of the mesh that is cut into pieces
-constexpr double kSolidKnownTo = 1.0 / 1000;  // difference of the bounds for pieces, relative to the mesh's size
+constexpr double kSolidKnownTo = 1.0 / 500;  // difference of the bounds for pieces, relative to the mesh's size
 
 double sizeOfMesh(const TriMesh& mesh) {
   const AxisBox box = boundsOf(mesh);

@@ -16,7 +16,7 @@ constexpr double kKnown = 1e-6;  // [m]
 
 void expectDistance(const SurfaceDistance& found, double exact, double tolerance = 1e-12) {
   EXPECT_LE(found.low, exact + tolerance);
-  EXPECT_GE(found.high, exact - std::max(tolerance, 1e-12));
+  EXPECT_GE(found.high, exact - tolerance - 1e-12);  // reached where a fine triangle lies over a coarse one's middle
   EXPECT_LE(found.high - found.low, kKnown * (1 + 1e-9));  // of the two bounds
 }
 
@@ -75,7 +75,7 @@ TEST(TouchMesh, IsTheMeshWhereNoneIsCoarser) {
 }
 
 TEST(TouchPieces, AreConvexAndAsFarAsTheySay) {
-  const TriMesh sphere = makeSphere(0.05, 5);
+  const TriMesh sphere = makeSphere(0.05, 4);
   const TouchPieces made = touchPieces(sphere, 4, 1e-3);
   ASSERT_FALSE(made.pieces.empty());
   EXPECT_LE(made.pieces.size(), 4u);
@@ -88,7 +88,7 @@ TEST(TouchPieces, AreConvexAndAsFarAsTheySay) {
   EXPECT_GT(made.forth.high, 2 * M_PI * 0.05 / (3 * std::sqrt(3.0) * 64 * 4));
   const double low = std::max(made.forth.low, made.back.low), high = std::max(made.forth.high, made.back.high);
   EXPECT_GE(high, hausdorffDistance(sphere, made.pieces) - 1e-12);
-  EXPECT_LE(high - low, 0.1 * std::sqrt(3.0) / 1000 + 1e-12);
+  EXPECT_LE(high - low, 0.1 * std::sqrt(3.0) / 500 + 1e-12);
 }
 
 }  // namespace
