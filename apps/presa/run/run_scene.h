@@ -35,9 +35,9 @@ struct SceneOffer {
 };
 
 struct RunEnd {
-  int status = 0;                 ///< exit status
-  bool complete = false;          ///< it came to its end: no fault, and nobody stopped it
-  std::optional<SceneWish> wish;  ///< what the user of the window wants to go on with
+  int status = 0;                      ///< exit status
+  bool complete = false;               ///< it came to its end: no fault, and nobody stopped it
+  std::optional<SceneWish> wish = {};  ///< what the user of the window wants to go on with
 };
 
 /// Loads a scene, runs it at the terminal, and writes what was asked for. Findings go to stderr. Thread: main.
