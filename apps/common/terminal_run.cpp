@@ -169,6 +169,11 @@ void TerminalRun::offerToView() {
         run_->session().graph().runs(group) ? &run_->executor().timing(group) : nullptr;
   }
   view_->setTimings(timings);
+  if (!settings_.scenes.empty()) view_->offerScenes(settings_.scenes, settings_.scene);
+}
+
+std::optional<SceneWish> TerminalRun::wish() const noexcept {
+  return view_ != nullptr ? view_->sceneWanted() : std::nullopt;
 }
 
 // Parameters that commands may set besides the surfaces: those that the user at the window may set. No force, no limit
@@ -269,7 +274,8 @@ void TerminalRun::poll() {
       result_.notes.emplace_back(text.data());
     }
   }
-  if (run_->session().view() != nullptr && run_->session().view()->wantsStop()) control_.stop_requested = true;
+  if (const View* view = run_->session().view(); view != nullptr && (view->wantsStop() || view->sceneWanted()))
+    control_.stop_requested = true;
   noteObjectFaults();
   noteFrames();
   noteGuide();

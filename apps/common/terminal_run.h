@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,15 @@ namespace presa {
 class TerminalRun {
  public:
   struct Settings {
-    double trace_rate = 0;   ///< samples per second kept for plots
-    bool quiet = false;      ///< no status line
-    std::string command;     ///< command line, for the report
-    Diagnostics found = {};  ///< warnings of the load, for report and summary
-    double speed = 1;        ///< lockstep with a window: simulated seconds per wall-clock second
-    bool paced = false;      ///< lockstep without a window: keep `speed`, too
-    bool guide = false;      ///< as Session::Options::guide
+    double trace_rate = 0;                  ///< samples per second kept for plots
+    bool quiet = false;                     ///< no status line
+    std::string command;                    ///< command line, for the report
+    Diagnostics found = {};                 ///< warnings of the load, for report and summary
+    double speed = 1;                       ///< lockstep with a window: simulated seconds per wall-clock second
+    bool paced = false;                     ///< lockstep without a window: keep `speed`, too
+    bool guide = false;                     ///< as Session::Options::guide
+    std::vector<OfferedScene> scenes = {};  ///< menu of the window; empty: none
+    std::size_t scene = 0;                  ///< the one of them that runs
     RealtimeProbe rights = realtimeRights;
     std::vector<std::unique_ptr<Module>> more = {};   ///< the command's own observer modules
     std::function<DeviceList(DeviceList)> wrap = {};  ///< as Session::Options::wrap
@@ -37,6 +40,10 @@ class TerminalRun {
 
   /// Runs to the end, or until Ctrl-C (forces fade first). Rethrows exceptions of Module::start().
   void execute();
+  /// What the user chose in the menu of scenes.
+  std::optional<SceneWish> wish() const noexcept;
+  /// Whether somebody stopped the run before its end.
+  bool stopped() const noexcept { return control_.stop_requested; }
   /// The results. Valid as long as this object.
   const RunResult& result() const noexcept { return result_; }
 

@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
       .declare =
           [](presa::Command app, int& status) {
             presa::addRun(app, status);
+            presa::addGallery(app, status);
             presa::addCheck(app, status);
             presa::addExplain(app, status);
             presa::addPlugins(app, status);
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
           "First steps:\n"
           "  presa run config/scenes/cube.xml                      two fingers lift a cube, live\n"
           "  presa run config/scenes/cube.xml --lockstep --report cube.html\n"
+          "  presa gallery                                         all shipped scenes, and what each shows\n"
           "  presa explain config/scenes/cube.xml                  which parts run, and why\n"
           "  presa cost config/scenes/cube.xml --quick             what accuracy costs in time\n"
           "  presa COMMAND --help                                  all options of a command\n"

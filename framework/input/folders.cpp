@@ -49,9 +49,13 @@ std::vector<fs::path> ownFolders() {
   return {};
 }
 
+const std::vector<fs::path>& own() {
+  static const std::vector<fs::path> folders = ownFolders();
+  return folders;
+}
+
 std::vector<fs::path> allowed() {
-  static const std::vector<fs::path> own = ownFolders();
-  std::vector<fs::path> folders = own;
+  std::vector<fs::path> folders = own();
   const char* const named = std::getenv(kVariable);
   std::string list = named != nullptr ? named : "";
   for (std::size_t at = 0; at < list.size();) {
@@ -67,6 +71,11 @@ std::vector<fs::path> allowed() {
 const char* const kOutsideHelp =
     "a file names files in its own folder, in that of a file on the command line, in Presa's config and experiments, "
     "or in a folder given with --allow-folder FOLDER";
+
+std::string ownFolder(const std::string& name) {
+  const auto found = std::ranges::find_if(own(), [&](const fs::path& folder) { return folder.filename() == name; });
+  return found == own().end() ? std::string() : found->string();
+}
 
 void allowFolder(const std::string& folder) {
   const std::string wanted = real(folder).string();

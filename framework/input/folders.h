@@ -13,6 +13,10 @@
 /// Thread: allowFolder and allowFoldersOf: main, before other threads start; the queries: any.
 namespace presa::input {
 
+/// Presa's own folder of that name, "config" or "experiments", above the program or installed with it. Empty: there is
+/// none.
+std::string ownFolder(const std::string& name);
+
 /// Allows `folder` for this process and its child processes (through PRESA_ALLOW_FOLDERS).
 void allowFolder(const std::string& folder);
 /// Allows the folder of each regular file on the command line, given alone or after '='.

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,17 @@ struct TimeControl {
   std::atomic<bool> skip_picture{false};  ///< time is late: the view's next step leaves its picture of the window out
 };
 
+/// A scene that the user of a window may go on with: heading, name, and the sentence that says what it shows.
+struct OfferedScene {
+  std::string group, name, sentence;
+};
+
+/// What the user chose among the offered scenes, by index. `by_hand`: mouse and keys are to move its fingers.
+struct SceneWish {
+  std::size_t scene = 0;
+  bool by_hand = false;
+};
+
 /// The picture of a run, as the application sees it: a module of the view group that draws the values of its input
 /// ports. The plug-in chooses the graphics engine.
 class View : public Module {
@@ -36,6 +48,9 @@ class View : public Module {
   virtual std::uint32_t inputs() const noexcept = 0;
   /// Number of requests to go on to what is offered next (Space or Return in a visitor's window). From any thread.
   virtual std::uint32_t onwardsWanted() const noexcept { return 0; }
+
+  /// The scene that the user chose in the menu, if any. From any thread.
+  virtual std::optional<SceneWish> sceneWanted() const noexcept { return std::nullopt; }
 
   /// Resolution at which the last frame's bodies were drawn, as a share of the window's width and height; below 1 to
   /// keep the frame rate. From any thread.
@@ -76,6 +91,10 @@ class View : public Module {
   /// Lets keys of the window pause and slow time through `time_control`, which must outlive the view; a length above 0
   /// [s] adds a bar for jumping within a recording. Call before start().
   virtual void offerTime(TimeControl& time_control, double length) noexcept = 0;
+
+  /// Adds a menu of scenes to the window, with the one marked that runs. The window then stays open for the next run of
+  /// the process. Call before start().
+  virtual void offerScenes(const std::vector<OfferedScene>& /*scenes*/, std::size_t /*now*/) {}
 
   /// Draws one wall of a CAVE in place of a camera's picture, in every step: without head-up display, for the eyes that
   /// `canvas` has then. It must outlive the view. Call before start().

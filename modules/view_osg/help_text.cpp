@@ -76,7 +76,9 @@ std::vector<HelpLine> helpLines(const Controls& controls, bool recording) {
   if (controls.time != nullptr) append(lines, timeLines(recording));
   append(lines, partLines());
   if (controls.undo) append(lines, {{"", "building"}, {"u", "undo the last placement"}});
-  append(lines, {{"", "window"}, {"s", "save a picture"}, {"?", "this help"}, {"Esc", "stop the run"}});
+  append(lines, {{"", "window"}});
+  if (controls.menu != nullptr) append(lines, {{"m", "menu of all scenes"}});
+  append(lines, {{"s", "save a picture"}, {"?", "this help"}, {"Esc", "stop the run"}});
   return lines;
 }
 

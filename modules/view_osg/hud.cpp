@@ -17,6 +17,7 @@ namespace {
 const osg::Vec4 kAlarm(1.0F, 0.42F, 0.36F, 1);
 const osg::Vec4 kGripInk(0.36F, 0.72F, 1.0F, 1);
 constexpr float kMargin = 18, kCardWidth = 262, kCardHeight = 61, kCardPitch = 66, kCardsTop = 636;
+constexpr float kRatesWidth = 268, kSentenceLeft = 168;
 
 template <class... Values>
 std::string print(const char* format, Values... values) {
@@ -97,6 +98,7 @@ Hud::Hud(const World& world, const RunOptions& options)
   center_->addChild(help_);
 
   addTitle(world);
+  if (options.view == RunOptions::View::kWindow && !plain_ && !assembly_) addSentence(world.scene.description);
   for (std::size_t i = 0; i < world.scene.devices.size(); ++i) addCard(i);
   if (cards_.size() > 1) addGrip();
   grip_scale_ = maxGripForce(world.scene.devices);
@@ -131,6 +133,11 @@ void Hud::setAspect(double aspect) {
   right_->setMatrix(osg::Matrixd::translate(width, 0, 0));
   center_->setMatrix(osg::Matrixd::translate(width / 2, kHeight / 2, 0));
   participant_->setMatrix(center_->getMatrix());
+  if (menu_) menu_->setAspect(aspect);
+  // between the time and the rates
+  const double room = (width - kSentenceLeft - kRatesWidth - 2 * kMargin) / std::max(sentence_width_, 1.0F);
+  const double small = std::clamp(room, 0.5, 1.0);
+  sentence_->setMatrix(osg::Matrixd::scale(small, small, 1) * osg::Matrixd::translate(kSentenceLeft, kHeight - 67, 0));
   const double share = std::min(1.0, (width - 20) / legend_width_);  // a narrow picture has it smaller
   legend_->setMatrix(osg::Matrixd::translate(0, kHeight / 2, 0) * osg::Matrixd::scale(share, share, 1) *
                      osg::Matrixd::translate(0, -kHeight / 2, 0));
@@ -171,6 +178,19 @@ void Hud::addTitle(const World& world) {
   time_.emplace(parent, kMargin + 2, kHeight - 67, 16, ink_.soft, Typeface::kMono);
 }
 
+/// What the scene shows, beside its time: for people at a window. Still pictures stay without it.
+void Hud::addSentence(const std::string& sentence) {
+  constexpr float kSize = 15;
+  sentence_width_ = 0.55F * kSize * static_cast<float>(sentence.size());
+  title_->addChild(sentence_);
+  Label(*sentence_, 0, 0, kSize, ink_.text).set(sentence);
+}
+
+void Hud::offerScenes(const std::vector<OfferedScene>& scenes, std::size_t now) {
+  menu_.emplace(*center_, ink_, scenes, now);
+  tell("m: menu of all scenes");
+}
+
 void Hud::addCard(std::size_t index) {
   const float top = kCardsTop - kCardPitch * static_cast<float>(index), bottom = top - kCardHeight;
   const float right = kMargin + kCardWidth;
@@ -198,7 +218,7 @@ void Hud::addGrip() {
 
 void Hud::addRates(const World& world, bool bus) {
   const Rates& rates = world.scene.rates;
-  constexpr float kWidth = 268, kTop = kHeight - 18, kRow = 19.5F;
+  constexpr float kWidth = kRatesWidth, kTop = kHeight - 18, kRow = 19.5F;
   std::vector<std::pair<RateGroup, double>> groups{{RateGroup::kHaptic, rates.haptic},
                                                    {RateGroup::kCollision, rates.collision},
                                                    {RateGroup::kDynamics, rates.dynamics},

@@ -14,6 +14,7 @@
 #include "modules/view_osg/hud_widgets.h"
 #include "modules/view_osg/ink.h"
 #include "modules/view_osg/scale_bar.h"
+#include "modules/view_osg/scene_menu.h"
 
 namespace presa::view {
 
@@ -39,6 +40,9 @@ class Hud {
   /// The lines shown by `toggleHelp`: keys (empty: a heading) and their function.
   void setHelp(const std::vector<std::pair<std::string, std::string>>& lines);
   void toggleHelp();
+  /// Adds the menu of scenes, closed.
+  void offerScenes(const std::vector<OfferedScene>& scenes, std::size_t now);
+  SceneMenu* menu() { return menu_ ? &*menu_ : nullptr; }
   /// Shows a line at the top, until the next call.
   void setBanner(const std::string& text, bool alarm);
   /// Moves the scale bar, where there is one.
@@ -60,6 +64,7 @@ class Hud {
   using Level = PictureOptions::Hud;
   void reduce();
   void addTitle(const World& world);
+  void addSentence(const std::string& sentence);
   void addCard(std::size_t index);
   void addGrip();
   void addRates(const World& world, bool bus);
@@ -79,7 +84,7 @@ class Hud {
   /// In an assembly task, rates and fingers are shown only with the help, and the legend gives way to the assembly
   /// panel.
   osg::ref_ptr<osg::Group> right_figures_ = new osg::Group, left_figures_ = new osg::Group;
-  osg::ref_ptr<osg::MatrixTransform> legend_ = new osg::MatrixTransform;
+  osg::ref_ptr<osg::MatrixTransform> legend_ = new osg::MatrixTransform, sentence_ = new osg::MatrixTransform;
   osg::ref_ptr<osg::Group> title_ = new osg::Group, task_ = new osg::Group, notes_ = new osg::Group;
   const World& world_;
   const Level level_;
@@ -89,9 +94,10 @@ class Hud {
   std::optional<Label> time_, banner_, output_, grip_value_, message_;
   std::optional<Bar> grip_bar_;
   std::optional<ScaleBar> scale_bar_;
+  std::optional<SceneMenu> menu_;
   std::vector<Card> cards_;
   std::vector<RateLine> rates_;
-  float legend_width_ = 0;
+  float legend_width_ = 0, sentence_width_ = 0;
   double grip_scale_ = 0;  ///< full bar: the most that the devices can give [N]
 };
 

@@ -19,7 +19,7 @@ constexpr float kLines = 720;  // height of the panel's coordinates
 
 class OsgParticipantPage final : public ParticipantPage {
  public:
-  OsgParticipantPage() : window_(participantWindow("Presa", 1280, 720).context) {
+  OsgParticipantPage() : window_(keptWindow("Presa", 1280, 720).context) {
     const osg::GraphicsContext::Traits& size = *window_->getTraits();
     typed_ = new TypedKeys(size.width, size.height);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);

@@ -56,6 +56,7 @@ void ViewModule::start() {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
+    if (windowed() && !scenes_.empty()) picture_->hud().offerScenes(scenes_, scene_);
     renderer_ = makeRenderer();
   } catch (const InputError&) {
     throw;  // a driver's figure
@@ -78,6 +79,7 @@ std::unique_ptr<Renderer> ViewModule::makeRenderer() {
                              .frames = frame_keys_ ? &*frame_keys_ : nullptr,
                              .time = time_,
                              .undo = world_->scene.assembly.has_value(),
+                             .menu = picture_->hud().menu(),
                              .participant = options_.participant.has_value(),
                              .visitor = forVisitors(*world_)},
                             options_.picture);
@@ -131,6 +133,12 @@ void ViewModule::offerTime(TimeControl& time_control, double length) noexcept {
   time_ = &time_control, length_ = length;
 }
 
+std::optional<SceneWish> ViewModule::sceneWanted() const noexcept {
+  const std::int64_t wish = wish_.load(std::memory_order_relaxed);
+  if (wish < 0) return std::nullopt;
+  return SceneWish{static_cast<std::size_t>(wish / 2), wish % 2 == 1};
+}
+
 void ViewModule::refresh() noexcept {
   if (!renderer_ || broken_ || !windowed()) return;
   try {
@@ -176,6 +184,9 @@ void ViewModule::drawWindow() {
   onwards_.store(renderer_->inputs().onwards, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
   sharpness_.store(renderer_->sharpness(), std::memory_order_relaxed);
+  if (const SceneMenu* const menu = picture_->hud().menu(); menu != nullptr && menu->wish())
+    wish_.store(static_cast<std::int64_t>(2 * menu->wish()->scene) + (menu->wish()->by_hand ? 1 : 0),
+                std::memory_order_relaxed);
   if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";

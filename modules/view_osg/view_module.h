@@ -35,6 +35,7 @@ class ViewModule final : public View {
   bool wantsStop() const noexcept override { return wants_stop_.load(std::memory_order_relaxed); }
   std::uint32_t undosWanted() const noexcept override { return undos_.load(std::memory_order_relaxed); }
   std::uint32_t inputs() const noexcept override { return inputs_.load(std::memory_order_relaxed); }
+  std::optional<SceneWish> sceneWanted() const noexcept override;
   std::uint32_t onwardsWanted() const noexcept override { return onwards_.load(std::memory_order_relaxed); }
   double sharpness() const noexcept override { return sharpness_.load(std::memory_order_relaxed); }
   Screenshot screenshot() const override { return screenshot_; }
@@ -44,6 +45,9 @@ class ViewModule final : public View {
   void setTimings(const GroupTimings& timings) noexcept override { timings_ = timings; }
   void offerPointer(const std::vector<std::size_t>& fingers) override;
   void offerFrames() override;
+  void offerScenes(const std::vector<OfferedScene>& scenes, std::size_t now) override {
+    scenes_ = scenes, scene_ = now;
+  }
   void offerTime(TimeControl& time_control, double length) noexcept override;
   void refresh() noexcept override;
   void drawOnWall(walls::Canvas& canvas) noexcept override { canvas_ = &canvas; }
@@ -74,8 +78,10 @@ class ViewModule final : public View {
   std::optional<FrameKeys> frame_keys_;   ///< only where the rig has frames that a user moves
   std::optional<In<FrameState>> frames_;  ///< only where the rig has frames
   TimeControl* time_ = nullptr;
-  walls::Canvas* canvas_ = nullptr;  ///< only on a wall
-  double length_ = 0;                ///< length of the recording [s]; 0: a run
+  walls::Canvas* canvas_ = nullptr;   ///< only on a wall
+  std::vector<OfferedScene> scenes_;  ///< of the menu; empty: none
+  std::size_t scene_ = 0;             ///< the one that runs
+  double length_ = 0;                 ///< length of the recording [s]; 0: a run
   In<JointPositions> joint_positions_{*this, kJointPositionsPort, In<JointPositions>::Optional{}};
   In<GuideState> guidance_{*this, "guidance", In<GuideState>::Optional{}};
 
@@ -91,7 +97,8 @@ class ViewModule final : public View {
   std::atomic<bool> wants_stop_{false};
   std::atomic<std::uint32_t> undos_{0}, onwards_{0}, inputs_{0};
   std::atomic<double> sharpness_{1};
-  bool broken_ = false;  ///< drawing failed: the run continues without pictures
+  std::atomic<std::int64_t> wish_{-1};  ///< twice the index of the wanted scene, plus one if by hand; negative: none
+  bool broken_ = false;                 ///< drawing failed: the run continues without pictures
 };
 
 }  // namespace presa::view

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <osgViewer/GraphicsWindow>
 #include <stdexcept>
 #include <string_view>
 
@@ -111,9 +112,12 @@ WindowContext wallWindow(const std::string& title, int width, int height, bool q
   return wall;
 }
 
-WindowContext participantWindow(const std::string& title, int width, int height) {
+WindowContext keptWindow(const std::string& title, int width, int height) {
   static WindowContext* const window = new WindowContext;  // outlives the objects of the graphics library
-  if (!window->context || !window->context->isRealized()) *window = openWindow(title, width, height);
+  if (!window->context || !window->context->isRealized())
+    *window = openWindow(title, width, height);
+  else if (auto* open = dynamic_cast<osgViewer::GraphicsWindow*>(window->context.get()))
+    open->setWindowName(title);
   return *window;
 }
 

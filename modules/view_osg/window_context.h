@@ -26,8 +26,8 @@ WindowContext openWindow(const std::string& title, int width, int height);
 /// and right buffers; no context where the driver has none. Otherwise as openWindow.
 WindowContext wallWindow(const std::string& title, int width, int height, bool quad);
 
-/// The window of this process for the participant of an experiment: opened at the first call and whenever it was closed.
-/// Otherwise it stays open until the process ends, with what was drawn last. Thread: one at a time.
-WindowContext participantWindow(const std::string& title, int width, int height);
+/// The window of this process for run after run: opened at the first call and whenever it was closed. Otherwise it stays
+/// open until the process ends, with what was drawn last, and gets the new title. Thread: one at a time.
+WindowContext keptWindow(const std::string& title, int width, int height);
 
 }  // namespace presa::view

@@ -62,7 +62,7 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
       scroll(event);
       return true;
     case Event::KEYDOWN:
-      return frameKey(event, true) || key(event);
+      return menuKey(event.getKey()) || frameKey(event, true) || key(event);
     case Event::KEYUP:
       return frameKey(event, false);
     default:
@@ -186,6 +186,19 @@ bool WindowInput::key(const Event& event) {
   if (controls_.pointer != nullptr && !has(event, Event::MODKEY_CTRL))
     return pairKey(key, has(event, Event::MODKEY_SHIFT));
   return cameraKey(key);
+}
+
+/// While the menu is open it takes every key.
+bool WindowInput::menuKey(int key) {
+  SceneMenu* const menu = controls_.menu;
+  if (menu == nullptr) return false;
+  if (menu->open()) {
+    menu->key(key);
+    return true;
+  }
+  if (key == Event::KEY_Escape) stop = true;
+  if (key == 'm') menu->toggle();
+  return stop || key == 'm';
 }
 
 bool WindowInput::frameKey(const Event& event, bool down) {

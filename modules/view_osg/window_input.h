@@ -7,6 +7,7 @@
 #include "modules/view_osg/frame_keys.h"
 #include "modules/view_osg/picture.h"
 #include "modules/view_osg/pointer_control.h"
+#include "modules/view_osg/scene_menu.h"
 
 namespace presa::view {
 
@@ -15,7 +16,8 @@ struct Controls {
   PointerControl* pointer = nullptr;
   FrameKeys* frames = nullptr;
   TimeControl* time = nullptr;
-  bool undo = false;  ///< undo is available
+  bool undo = false;          ///< undo is available
+  SceneMenu* menu = nullptr;  ///< its window stays open for the next run
   /// The window is a participant's: only the pointer's mouse and keys act in it, and it stays open for the next run.
   bool participant = false;
   /// The window is a visitor's: no key or click shows figures.
@@ -38,6 +40,7 @@ class WindowInput : public osgGA::GUIEventHandler {
 
   Inputs inputs;
   bool picture_requested = false;
+  bool stop = false;            ///< Esc, in a window with a menu, which Esc closes first
   bool frame_requested = true;  ///< frame the subject at once; set for the first frame
   bool following = true;        ///< false once the user has moved the camera
 
@@ -48,6 +51,7 @@ class WindowInput : public osgGA::GUIEventHandler {
   void click(const osgGA::GUIEventAdapter& event, bool twice);
   void scroll(const osgGA::GUIEventAdapter& event);
   bool key(const osgGA::GUIEventAdapter& event);
+  bool menuKey(int key);
   bool frameKey(const osgGA::GUIEventAdapter& event, bool down);
   void tellCamera();
   bool cameraKey(int key);

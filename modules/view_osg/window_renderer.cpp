@@ -20,12 +20,12 @@ class WindowRenderer final : public Renderer {
  public:
   WindowRenderer(Picture& picture, const std::string& title, const Controls& controls, const PictureOptions& options)
       : picture_(picture),
-        keep_(controls.participant),
+        keep_(controls.participant || controls.menu != nullptr),
         follow_(options, picture.elevation()),
         camera_(static_cast<double>(options.width) / options.height),
         input_(new WindowInput(picture, camera_, controls)) {
-    const WindowContext window = controls.participant ? participantWindow(title, options.width, options.height)
-                                                      : openWindow(title, options.width, options.height);
+    const WindowContext window =
+        keep_ ? keptWindow(title, options.width, options.height) : openWindow(title, options.width, options.height);
     if (const std::optional<CameraPose> place = follow_.choice().place()) {
       camera_.set(*place);
       input_->following = false;
@@ -90,7 +90,7 @@ class WindowRenderer final : public Renderer {
     setSize(width_, height_, budget_.share());
     return grabber_->take();
   }
-  bool closed() const override { return viewer_.done() || !window_->isRealized(); }
+  bool closed() const override { return viewer_.done() || input_->stop || !window_->isRealized(); }
   Inputs inputs() const override { return input_->inputs; }
   double sharpness() const override { return budget_.share(); }
   bool takePictureRequest() override { return std::exchange(input_->picture_requested, false); }

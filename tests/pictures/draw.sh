@@ -15,7 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
-    scene_pages) size=1770,1500 ;;      # 32 pages, 6 beside each other
+    scene_pages) size=1770,2500 ;;      # 56 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
@@ -32,6 +32,18 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     balance) args+=(--screenshot-at 13) ;; # the beam has levelled
     chain) args+=(--camera "0.45,-0.65,0.55:0,0,0.4") ;; # between the posts
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
+    groove) args+=(--screenshot-at 3.5) ;;
+    hand_over | stick_slip) args+=(--screenshot-at 4) ;;
+    incline) args+=(--screenshot-at 2) ;; # the ice has slid, the felt has not
+    magnet) args+=(--screenshot-at 1.7) ;;
+    moving_wall) args+=(--screenshot-at 0.25) ;;
+    pile) args+=(--screenshot-at 3.4) ;;
+    plane | stiffness_pair) args+=(--screenshot-at 4.5) ;;
+    rate_*) args+=(--screenshot-at 1.6) ;;
+    stribeck_beside_coulomb) args+=(--screenshot-at 4.3) ;;
+    thin_plate) args+=(--screenshot-at 6) ;;
+    two_hands | wall) args+=(--screenshot-at 4.2) ;;
+    updraught) args+=(--screenshot-at 2.2) ;;
     sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
   esac
   mkdir -p "$out/scenes"

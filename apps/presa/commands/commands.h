@@ -6,6 +6,7 @@ namespace presa {
 
 /// Each function adds one command, which stores its exit status in `status`.
 void addRun(Command app, int& status);
+void addGallery(Command app, int& status);
 void addCheck(Command app, int& status);
 void addExplain(Command app, int& status);
 void addPlugins(Command app, int& status);
