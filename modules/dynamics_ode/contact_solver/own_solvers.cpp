@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "modules/dynamics_ode/contact_solver/joined_pair.h"
+#include "modules/dynamics_ode/contact_solver/one_axis.h"
 #include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
@@ -148,6 +150,10 @@ void OwnSolvers::forgive(std::size_t island) {
 void OwnSolvers::solveProblem(std::size_t island, double h) {
   using Solver = DynamicsSettings::Solver;
   const Solver solver = options_.method.solver;
+  if (solver != Solver::kSmallSteps && (stepOnAxis(problem_, h) || stepJoinedPair(problem_, h))) {
+    ++counts.single_joints;
+    return;
+  }
   const std::size_t max_work = solver == Solver::kNewton ? kAnyWork : options_.newton_work;
   if (solver != Solver::kSmallSteps && !isRough(island) && !wobbles(h) && newton_.analyse(problem_, max_work)) {
     if (newton_.solve(problem_, h)) {
