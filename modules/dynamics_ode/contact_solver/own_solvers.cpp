@@ -181,7 +181,7 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers, JointSet* l
     joint.m_B_W = problem_.contacts[k].m_B_W;
   }
   for (std::size_t k = 0; k < problem_.joints.size(); ++k) {
-    links->keep(links_.items[links_.first[island] + k], problem_.joints[k]);
+    links->keep(links_.items[links_.first[island] + k], problem_.joints[k], problem_.joints.size() == 1);
   }
   for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
     fingers.setForce(fingers_.items[fingers_.first[island] + k], problem_.fingers[k].f_B_W);

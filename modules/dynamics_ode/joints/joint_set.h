@@ -27,12 +27,14 @@ class JointSet {
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
   const Joint& joint(std::size_t i) const { return *links_[i].joint; }
-  /// Keeps what the solver found of joint i for the next step.
-  void keep(std::size_t i, const ContactProblem::Joint& solved) {
+  /// Keeps what the solver found of joint i for the next step, and how its leads go on: as a line, as a parabola where it
+  /// is the only joint of its island. In a loop a part of them is undetermined, and would run away on a parabola.
+  void keep(std::size_t i, const ContactProblem::Joint& solved, bool alone) {
     Link& link = links_[i];
     link.f_B_W = solved.f_B_W;
     for (std::size_t k = 0; k < solved.lead.size(); ++k) {
-      link.next_lead[k] = 3 * (solved.lead[k] - link.lead[k]) + link.last_lead[k];  // goes on as a parabola
+      const double grows = solved.lead[k] - link.lead[k], grew = link.lead[k] - link.last_lead[k];
+      link.next_lead[k] = solved.lead[k] + (alone ? 2 * grows - grew : grows);
     }
     link.last_lead = link.lead;
     link.lead = solved.lead;
