@@ -65,7 +65,7 @@ std::shared_ptr<const World> jointedWorld(Scene scene) {
   return world;
 }
 
-void BM_Joints(benchmark::State& state) {
+void BM_Hinges(benchmark::State& state) {
   OdeOptions options;
   options.method.sleeping = false;
   OdeWorld world(jointedWorld(sceneOf(state)), options);
@@ -76,10 +76,10 @@ void BM_Joints(benchmark::State& state) {
     time += kJointStep;
   }
 }
-BENCHMARK(BM_Joints)->ArgName("scene")->DenseRange(kDoors, kDrawers)->Iterations(kSteps);
+BENCHMARK(BM_Hinges)->ArgName("scene")->DenseRange(kDoors, kDrawers)->Iterations(kSteps);
 
 /// Argument 1: 0 the direct solver, else iterations of the iterative one. It collides as Presa does: not.
-void BM_JointsBareOde(benchmark::State& state) {
+void BM_HingesBareOde(benchmark::State& state) {
   const Scene scene = sceneOf(state);
   dInitODE2(0);
   dAllocateODEDataForThread(dAllocateMaskAll);
@@ -118,7 +118,7 @@ void BM_JointsBareOde(benchmark::State& state) {
   }
   dWorldDestroy(world);
 }
-BENCHMARK(BM_JointsBareOde)
+BENCHMARK(BM_HingesBareOde)
     ->ArgNames({"scene", "iterations"})
     ->ArgsProduct({benchmark::CreateDenseRange(kDoors, kDrawers, 1), {0, 20}})
     ->Iterations(kSteps);
