@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "modules/dynamics_ode/contact_solver/joint_rows.h"
 #include "modules/dynamics_ode/index.h"
@@ -19,10 +20,11 @@ namespace {
 using Row6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kMaxCloses = 8;     // corrections
-constexpr double kClosed = 1e-7;  // last of them [m/s, rad/s]
-constexpr double kKeepsOn = 0.8;  // each in relation to the one before
-constexpr double kTurnsFast = 4;  // (h omega)^2 of a body under the joint's force that a step does not follow
+constexpr int kMaxCloses = 8;         // corrections
+constexpr double kClosed = 1e-7;      // last of them [m/s, rad/s]
+constexpr double kKeepsOn = 0.8;      // each in relation to the one before
+constexpr std::size_t kAxisLead = 5;  // of the axis of a hinge or a slider, among the leads
+constexpr double kTurnsFast = 4;      // (h omega)^2 of a body under the joint's force that a step does not follow
 
 // Rows that a joint locks, in the order of joint_rows.h.
 std::span<const int> lockedRowsOf(JointType type) {
@@ -217,6 +219,7 @@ class Pair {
   // Velocities of the locked rows at which the joint should close, as it did in the last steps.
   void aim() {
     begin_ = gapIn(type_, joint_.begin);
+    if (laws_.count > 0) turning_ = joint_.lead[kAxisLead];
     for (std::size_t i = 0; i < locked_.size(); ++i) {
       const int row = locked_[i];
       const double most = h_ * (row < 3 ? kMaxClosing : kMaxTurning);
@@ -230,10 +233,11 @@ class Pair {
     for (const int i : locked_) wanted[i] = goal_[i] - free_[i];
     impulse_ = inverse_ * wanted;
     if (laws_.count > 0) {
-      const double u_free = free_[axis_] + along_.dot(impulse_);
+      const double u_free = free_[axis_] + turning_ + along_.dot(impulse_);
       const double along = inertia_ * (speedUnder(laws_, inertia_, u_free) - u_free);
       impulse_ -= along * response_;
       impulse_[axis_] = along;
+      speed_ = u_free + along / inertia_ - turning_;
     }
     A_.move(R_JW_, -impulse_, h_);
     B_.move(R_JW_, impulse_, h_);
@@ -241,8 +245,13 @@ class Pair {
 
   // Moves the goals by what the joint misses at the end of the step; returns the largest [m/s, rad/s].
   double correct() {
-    const Row6 end = gapIn(type_, presa::poseOf(joint_.frames, B_.X_WCm, A_.X_WCm));
+    const JointPose at = presa::poseOf(joint_.frames, B_.X_WCm, A_.X_WCm);
+    const Row6 end = gapIn(type_, at);
     double largest = 0;
+    if (laws_.count > 0) {
+      const double turning = wayOf(joint_.begin, at) / h_ - speed_;
+      largest = std::abs(std::exchange(turning_, turning) - turning);
+    }
     for (const int i : locked_) {
       const double miss = (begin_[i] - closes_[i] - end[i]) / h_;
       largest = std::max(largest, std::abs(miss));
@@ -250,6 +259,13 @@ class Pair {
     }
     if (largest >= kClosed) goal_ += miss_;
     return largest;
+  }
+
+  // Along the axis [m, rad].
+  double wayOf(const JointPose& from, const JointPose& to) const {
+    if (type_ == JointType::kSlider) return to.p_J.z() - from.p_J.z();
+    const Quat &a = from.q_J, &b = to.q_J;
+    return 2 * std::atan((a.w() * b.z() - a.z() * b.w()) / (a.w() * b.w() + a.z() * b.z()));
   }
 
   void giveBack() {
@@ -262,6 +278,7 @@ class Pair {
     }
     joint_.f_B_W = R_JW_.transpose() * impulse_.head<3>() / h_;
     for (std::size_t i = 0; i < locked_.size(); ++i) joint_.lead[i] = goal_[locked_[i]] + closes_[locked_[i]] / h_;
+    if (axis_ >= 0) joint_.lead[kAxisLead] = turning_;
   }
 
   ContactProblem::Joint& joint_;
@@ -275,6 +292,8 @@ class Pair {
   Row6 along_, response_;  // velocities by a unit impulse along it; impulses that keep the locked rows as they are then
   double inertia_ = 0;     // along it
   AxisLaws laws_;
+  double speed_ = 0;    // along it, at the start of the step
+  double turning_ = 0;  // what it is faster over the step, as the bodies turn: the laws are about the way
   Row6 free_, impulse_, begin_;
   Row6 goal_ = Row6::Zero(), closes_ = Row6::Zero(), miss_ = Row6::Zero();
 };
