@@ -11,13 +11,7 @@ void EnergyBook::settle(const BodySet& bodies, Islands& islands, const FingerJoi
   std::fill(gain_.begin(), gain_.end(), 0);
   std::fill(unknown_.begin(), unknown_.end(), 0);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies.awake(i)) continue;
-    gain_[islands.of(i)] += bodies.energyGain(i, gravity_W_) - bodies.externalWork(i);
-    if (bodies.hasAddedInertia(i)) unknown_[islands.of(i)] = 1;
-  }
-  for (std::size_t i = 0; i < fingers.count() && !fingers.areForces(); ++i) {
-    const std::size_t body = fingers.body(i);
-    gain_[islands.of(body)] -= fingers.force(i).dot(bodies.movedSinceBegin(body, fingers.row(i).p_WP));
+    if (bodies.awake(i) && bodies.hasAddedInertia(i)) unknown_[islands.of(i)] = 1;
   }
   for (const auto& list : {motors, &fingers.motors()}) {
     if (list == nullptr) continue;
@@ -25,6 +19,14 @@ void EnergyBook::settle(const BodySet& bodies, Islands& islands, const FingerJoi
   }
   for (std::size_t i = 0; links != nullptr && i < links->size(); ++i) {
     if (const std::size_t body = links->movingBody(i, bodies); body < bodies.size()) unknown_[islands.of(body)] = 1;
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies.awake(i) || unknown_[islands.of(i)] != 0) continue;
+    gain_[islands.of(i)] += bodies.energyGain(i, gravity_W_) - bodies.externalWork(i);
+  }
+  for (std::size_t i = 0; i < fingers.count() && !fingers.areForces(); ++i) {
+    const std::size_t body = fingers.body(i);
+    gain_[islands.of(body)] -= fingers.force(i).dot(bodies.movedSinceBegin(body, fingers.row(i).p_WP));
   }
   double step = 0;
   for (std::size_t i = 0; i < gain_.size(); ++i) {

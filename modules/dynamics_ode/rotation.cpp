@@ -9,8 +9,13 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kMaxAngle = 0.025;  // [rad] per Runge-Kutta step
+constexpr double kMaxAngle = 0.025;       // [rad] per Runge-Kutta step
+constexpr double kMaxSeriesAngle = 0.05;  // [rad] per Magnus series
 constexpr int kMaxSubsteps = 64;
+
+int substepsOf(double angle, double max_angle) {
+  return std::clamp(static_cast<int>(std::ceil(angle / max_angle)), 1, kMaxSubsteps);
+}
 
 Vec3 spin(const Quat& q, const Mat3& inverse_inertia, const Vec3& momentum_W) {
   return q * (inverse_inertia * (q.conjugate() * momentum_W));
@@ -23,11 +28,42 @@ Eigen::Vector4d rate(const Eigen::Vector4d& xyzw, const Mat3& inverse_inertia, c
   return 0.5 * (Quat(0, w.x(), w.y(), w.z()) * q).coeffs();
 }
 
+// The rotation vector over `h` of a body with angular momentum L, in the axes of the body, from the derivatives of its
+// angular velocity by Euler's equations L' = L x w.
+Vec3 magnusTurn(const Vec3& L, const Mat3& inverse_inertia, double h) {
+  const Vec3 w = inverse_inertia * L, L1 = L.cross(w), w1 = inverse_inertia * L1;
+  const Vec3 L2 = L1.cross(w) + L.cross(w1), w2 = inverse_inertia * L2;
+  const Vec3 w3 = inverse_inertia * Vec3(L2.cross(w) + 2 * L1.cross(w1) + L.cross(w2));
+  const Vec3 third = w2 / 6 + w.cross(w1) / 12, fourth = (w3 + w.cross(w2)) / 24;
+  return h * (w + h * (w1 / 2 + h * (third + h * fourth)));
+}
+
+// exp(turn / 2) by its series, to rounding for turns of kMaxSeriesAngle
+Quat smallTurn(const Vec3& turn) {
+  const double a = turn.squaredNorm() / 4;
+  const double cosine = 1 - a / 2 * (1 - a / 12 * (1 - a / 30 * (1 - a / 56)));
+  const Vec3 v = turn * (0.5 * (1 - a / 6 * (1 - a / 20 * (1 - a / 42))));
+  return {cosine, v.x(), v.y(), v.z()};
+}
+
 }  // namespace
+
+void magnusRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {
+  const int substeps = substepsOf(w_WB.norm() * h, kMaxSeriesAngle);
+  Mat3 R = q_WB.toRotationMatrix();
+  Vec3 L_B = inertia * (R.transpose() * w_WB);
+  const Vec3 L_W = R * L_B;
+  for (int i = 0; i < substeps; ++i) {
+    q_WB = (q_WB * smallTurn(magnusTurn(L_B, inverse_inertia, h / substeps))).normalized();
+    R = q_WB.toRotationMatrix();
+    L_B = R.transpose() * L_W;
+  }
+  w_WB = R * (inverse_inertia * L_B);
+}
 
 void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {
   const Vec3 momentum_W = q_WB * (inertia * (q_WB.conjugate() * w_WB));
-  const int substeps = std::clamp(static_cast<int>(std::ceil(w_WB.norm() * h / kMaxAngle)), 1, kMaxSubsteps);
+  const int substeps = substepsOf(w_WB.norm() * h, kMaxAngle);
   const double s = h / substeps;
   Eigen::Vector4d x = q_WB.coeffs();
   for (int i = 0; i < substeps; ++i) {

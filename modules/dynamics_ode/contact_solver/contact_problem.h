@@ -59,6 +59,7 @@ struct ContactProblem {
     std::int32_t A = kFixed, B = kFixed;
     const presa::Joint* joint = nullptr;
     JointFrames frames;  ///< in the axes of A and B, from their centres of mass; fixed: in W
+    JointPose begin;     ///< at the start of the step
     std::array<double, presa::Joint::kMaxAxes> position{};  ///< of its axes; angles are continued beyond half a turn
     Vec3 f_B_W = Vec3::Zero(), m_B_W = Vec3::Zero();  ///< on B at the joint [N], [N m]; in: last step; out: this one
     /// Velocities by which the locked directions were led so that the joint closes at the end of the step; in: the

@@ -27,9 +27,9 @@ struct Turns {
   }
 };
 
-// A direction that both bodies share: it may not tilt in B against A.
-void alignAxis(const Vec3& axis_J, const Quat& q_J, Turns& turns) {
-  const Vec3 tilt = axis_J.cross(q_J * axis_J), first = axis_J.unitOrthogonal();
+// A direction that both bodies share: it may not tilt in B against A. `first`: a direction square to it.
+void alignAxis(const Vec3& axis_J, const Vec3& first, const Quat& q_J, Turns& turns) {
+  const Vec3 tilt = axis_J.cross(q_J * axis_J);
   turns.add(first, tilt.dot(first));
   turns.add(axis_J.cross(first), tilt.dot(axis_J.cross(first)));
 }
@@ -44,10 +44,10 @@ Turns lockedTurns(const Joint& joint, const Quat& q_J) {
       break;
     }
     case JointType::kHinge:
-      alignAxis(Vec3::UnitZ(), q_J, turns);
+      alignAxis(Vec3::UnitZ(), Vec3::UnitX(), q_J, turns);
       break;
     case JointType::kPrismaticRotary:
-      alignAxis(secondAxis(joint), q_J, turns);
+      alignAxis(secondAxis(joint), secondAxis(joint).unitOrthogonal(), q_J, turns);
       break;
     case JointType::kUniversal: {
       const Vec3 x = q_J * Vec3::UnitX(), about = x.cross(Vec3::UnitZ());
@@ -63,6 +63,16 @@ Turns lockedTurns(const Joint& joint, const Quat& q_J) {
 // Axes of J along which the joint does not slide.
 int lockedMoves(JointType type) { return type == JointType::kSlider || type == JointType::kPrismaticRotary ? 2 : 3; }
 
+JointGap gapOf(const Joint& joint, const JointPose& at, const Turns& turns) {
+  JointGap gap;
+  for (int i = 0; i < lockedMoves(joint.type); ++i) gap.of[gap.count++] = at.p_J[i];
+  for (std::size_t i = 0; i < turns.count; ++i) {
+    gap.turns[gap.count] = true;
+    gap.of[gap.count++] = turns.error[i];
+  }
+  return gap;
+}
+
 class RowMaker {
  public:
   RowMaker(const Problem& problem, const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB, double h,
@@ -77,44 +87,44 @@ class RowMaker {
         R_WJ_((X_WA_.q * joint.frames.X_AJ.q).toRotationMatrix()),
         p_WJ_(X_WB_ * joint.frames.X_BJ.p) {}
 
-  std::size_t make() {
+  JointGap make() {
     const Joint& of = *joint_.joint;
-    const JointGap gap = gapOf(joint_, X_WA_, X_WB_);
     const Turns turns = lockedTurns(of, at_.q_J);
-    const int moves = lockedMoves(of.type);
+    const JointGap gap = gapOf(of, at_, turns);
+    const std::size_t moves = index(lockedMoves(of.type));
     for (std::size_t i = 0; i < gap.count; ++i) {
-      AxisRow& row =
-          i < index(moves) ? push(R_WJ_.col(static_cast<int>(i))) : turn(R_WJ_ * turns.about[i - index(moves)]);
-      row.goal = -closable(gap, i, h_) / h_;
+      rows_.push_back(i < moves ? push(R_WJ_.col(static_cast<int>(i))) : turn(R_WJ_ * turns.about[i - moves]));
+      rows_.back().goal = -closable(gap, i, h_) / h_;
     }
     if (of.type == JointType::kBall) {
       if (!of.axes.empty()) brakeBall(of.axes[0]);
     } else {
       for (std::size_t i = 0; i < of.axes.size(); ++i) makeAxis(of.axes[i], i);
     }
-    return gap.count;
+    return gap;
   }
 
  private:
-  AxisRow& push(const Vec3& along_W) {
-    AxisRow& row = rows_.emplace_back();
+  AxisRow push(const Vec3& along_W) const {
+    AxisRow row;
     row.A = joint_.A;
     row.B = joint_.B;
     row.J_B << along_W, (p_WJ_ - X_WB_.p).cross(along_W);
     row.J_A << -along_W, -(p_WJ_ - X_WA_.p).cross(along_W);
-    return stiffen(row);
+    row.k = stiffnessOf(row);
+    return row;
   }
-  AxisRow& turn(const Vec3& about_W) {
-    AxisRow& row = rows_.emplace_back();
+  AxisRow turn(const Vec3& about_W) const {
+    AxisRow row;
     row.A = joint_.A;
     row.B = joint_.B;
     row.J_B << Vec3::Zero(), about_W;
     row.J_A << Vec3::Zero(), -about_W;
-    return stiffen(row);
-  }
-  AxisRow& stiffen(AxisRow& row) const {
-    row.k = 1 / (kJointSoftness * (compliance(row.A, row.J_A) + compliance(row.B, row.J_B)));
+    row.k = stiffnessOf(row);
     return row;
+  }
+  double stiffnessOf(const AxisRow& row) const {
+    return 1 / (kJointSoftness * (compliance(row.A, row.J_A) + compliance(row.B, row.J_B)));
   }
   double compliance(std::int32_t body, const Vec6& J) const {
     if (body == Problem::kFixed) return 0;
@@ -132,7 +142,7 @@ class RowMaker {
     return u;
   }
 
-  AxisRow& along(std::size_t i) {
+  AxisRow along(std::size_t i) const {
     const Joint& of = *joint_.joint;
     if (!of.axes[i].turns) return push(R_WJ_.col(2));
     if (i == 0) return turn(R_WJ_.col(2));
@@ -140,34 +150,12 @@ class RowMaker {
   }
 
   void makeAxis(const JointAxis& axis, std::size_t i) {
-    const double position = joint_.position[i], fastest = axis.turns ? kMaxTurning : kMaxClosing;
-    if (axis.lower) {
-      AxisRow& row = along(i);
-      row.low = 0;
-      row.goal = std::min((*axis.lower - position) / h_, fastest);
+    AxisRow row = along(i);
+    const double u = axis.stiffness > 0 ? speedOf(row) : 0;
+    for (const AxisLaw& law : lawsOf(axis, joint_.position[i], u, row.k, h_).all()) {
+      static_cast<AxisLaw&>(row) = law;
+      rows_.push_back(row);
     }
-    if (axis.upper) {
-      AxisRow& row = along(i);
-      row.high = 0;
-      row.goal = std::max((*axis.upper - position) / h_, -fastest);
-    }
-    if (axis.friction > 0) bound(along(i), h_ * axis.friction);
-    if (axis.max_force > 0) {
-      AxisRow& row = along(i);
-      row.goal = axis.speed;
-      bound(row, h_ * axis.max_force);
-    }
-    if (axis.stiffness > 0) {
-      AxisRow& row = along(i);
-      row.k = h_ * h_ * axis.stiffness / 4;
-      row.goal = speedOf(row) + 4 * (axis.rest - position) / h_;
-    }
-    if (axis.damping > 0) along(i).k = h_ * axis.damping;
-  }
-
-  static void bound(AxisRow& row, double impulse) {
-    row.low = -impulse;
-    row.high = impulse;
   }
 
   // Friction acts along the rotation, where there is one: its bound is then the same in all directions.
@@ -179,8 +167,12 @@ class RowMaker {
     const Vec3 first = w.norm() > 1e-6 ? Vec3(w.normalized()) : Vec3(Vec3::UnitZ());
     const Vec3 second = first.unitOrthogonal();
     for (const Vec3& about : {first, second, Vec3(first.cross(second))}) {
-      if (axis.friction > 0) bound(turn(about), h_ * axis.friction);
-      if (axis.damping > 0) turn(about).k = h_ * axis.damping;
+      if (axis.friction > 0) {
+        AxisRow& row = rows_.emplace_back(turn(about));
+        row.low = -h_ * axis.friction;
+        row.high = h_ * axis.friction;
+      }
+      if (axis.damping > 0) rows_.emplace_back(turn(about)).k = h_ * axis.damping;
     }
   }
 
@@ -198,14 +190,7 @@ class RowMaker {
 
 JointGap gapOf(const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB) {
   const JointPose at = presa::poseOf(joint.frames, X_WB, X_WA);
-  JointGap gap;
-  for (int i = 0; i < lockedMoves(joint.joint->type); ++i) gap.of[gap.count++] = at.p_J[i];
-  const Turns turns = lockedTurns(*joint.joint, at.q_J);
-  for (std::size_t i = 0; i < turns.count; ++i) {
-    gap.turns[gap.count] = true;
-    gap.of[gap.count++] = turns.error[i];
-  }
-  return gap;
+  return gapOf(*joint.joint, at, lockedTurns(*joint.joint, at.q_J));
 }
 
 Pose centreOf(const Problem& problem, std::int32_t i) {
@@ -236,8 +221,8 @@ void addLoad(const AxisRow& row, double force, ContactProblem::Joint& joint) {
   (along.isZero() ? joint.m_B_W : joint.f_B_W) += force * (along.isZero() ? about : along);
 }
 
-std::size_t appendRows(const Problem& problem, const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB,
-                       double h, std::vector<AxisRow>& rows) {
+JointGap appendRows(const Problem& problem, const Problem::Joint& joint, const Pose& X_WA, const Pose& X_WB, double h,
+                    std::vector<AxisRow>& rows) {
   return RowMaker(problem, joint, X_WA, X_WB, h, rows).make();
 }
 

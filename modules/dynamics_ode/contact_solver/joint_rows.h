@@ -32,9 +32,9 @@ JointGap gapOf(const ContactProblem::Joint& joint, const Pose& X_WA, const Pose&
 Pose centreOf(const ContactProblem& problem, std::int32_t i);
 
 /// Appends the rows of `joint` for a step of `h` [s], with A and B at these poses of their centres of mass. The goals of
-/// locked directions close the gap there, at most at kMaxClosing and kMaxTurning. Returns the number of locked directions.
-std::size_t appendRows(const ContactProblem& problem, const ContactProblem::Joint& joint, const Pose& X_WA,
-                       const Pose& X_WB, double h, std::vector<AxisRow>& rows);
+/// locked directions close the gap there, at most at kMaxClosing and kMaxTurning. Returns that gap.
+JointGap appendRows(const ContactProblem& problem, const ContactProblem::Joint& joint, const Pose& X_WA,
+                    const Pose& X_WB, double h, std::vector<AxisRow>& rows);
 
 /// Takes the positions of the joint's axes from where its bodies are; angles go on from what they were.
 void followPosition(const ContactProblem& problem, ContactProblem::Joint& joint);

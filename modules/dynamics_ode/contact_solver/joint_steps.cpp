@@ -39,8 +39,9 @@ void JointSteps::beginStep(ContactProblem& problem, const std::vector<Mat3>& inv
   end_.clear();
   for (ContactProblem::Joint& joint : problem.joints) {
     followPosition(problem, joint);
-    const std::size_t first = rows_.size(), locked = appendRows(problem, joint, centreOf(problem, joint.A),
-                                                                centreOf(problem, joint.B), h, rows_);
+    const std::size_t first = rows_.size();
+    const std::size_t locked =
+        appendRows(problem, joint, centreOf(problem, joint.A), centreOf(problem, joint.B), h, rows_).count;
     steps_.resize(std::max(steps_.size(), rows_.size()));
     for (std::size_t i = first; i < rows_.size(); ++i) {
       steps_[i].locked = i < first + locked;

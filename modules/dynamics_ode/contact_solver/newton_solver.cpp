@@ -86,8 +86,8 @@ void NewtonSolver::makeMasses(const ContactProblem& problem, double h) {
 // A joint under tension turns a light body back with a stiffness that a step cannot follow: the lever arm turns while the
 // force keeps its direction. Where h omega > 2 of a free turn the joints of the island act along their directions at the
 // end of the step, which damps such turns. The stiffness, from the forces of the last step, lets this converge
-// [Tournier2015]. Below all is as without. True if so.
-bool NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
+// [Tournier2015]. Below all is as without.
+void NewtonSolver::sumTurning(const ContactProblem& problem) {
   turning_.assign(problem.bodies.size(), Mat3::Zero());
   const auto add = [&](std::int32_t i, const Vec3& p_WJ, const Vec3& f_W) {
     if (i == ContactProblem::kFixed) return;
@@ -99,6 +99,18 @@ bool NewtonSolver::stiffenTurns(const ContactProblem& problem, double h) {
     add(joint.B, p_WJ, joint.f_B_W);
     add(joint.A, p_WJ, -joint.f_B_W);
   }
+}
+
+// By norms: a bound of the eigenvalues.
+bool NewtonSolver::mayTurnFast(const ContactProblem& problem, double h) const {
+  for (std::size_t i = 0; i < turning_.size(); ++i) {
+    if (!(h * h * turning_[i].norm() * problem.bodies[i].inverse_inertia_B.norm() < kFree)) return true;
+  }
+  return false;
+}
+
+// Keeps of the sums what turns back. True where a step cannot follow it.
+bool NewtonSolver::stiffenTurns(double h) {
   bool any = false;
   for (std::size_t i = 0; i < turning_.size(); ++i) {
     Eigen::SelfAdjointEigenSolver<Mat3> axes;
@@ -180,10 +192,9 @@ void NewtonSolver::addMotor(const ContactProblem& problem, const ContactProblem:
 void NewtonSolver::addJoint(const ContactProblem& problem, const ContactProblem::Joint& joint, double h) {
   Locked rows;
   rows.first = axes_.size();
-  const Pose X_WA = centreOf(problem, joint.A), X_WB = centreOf(problem, joint.B);
-  rows.count = appendRows(problem, joint, X_WA, X_WB, h, axes_);
+  rows.begin = appendRows(problem, joint, centreOf(problem, joint.A), centreOf(problem, joint.B), h, axes_);
+  rows.count = rows.begin.count;
   rows.end = axes_.size();
-  rows.begin = gapOf(joint, X_WA, X_WB);
   if (!is_stiff_) {
     for (std::size_t i = 0; i < rows.count; ++i) axes_[rows.first + i].goal += joint.lead[i];
   }
@@ -398,9 +409,10 @@ void NewtonSolver::giveBack(ContactProblem& problem, double h) const {
   }
 }
 
-NewtonSolver::End NewtonSolver::endOf(const ContactProblem::Body& body, const Vec6& v, double h) {
+NewtonSolver::End NewtonSolver::endOf(const ContactProblem::Body& body, const Vec6& v, double h) const {
   End end{{body.p_WCm + h * v.head<3>(), body.q_WB}, v.tail<3>()};
-  driftRotation(end.X_WCm.q, end.w_WB, body.inertia_B, body.inverse_inertia_B, h);
+  const auto turn = locked_.empty() ? driftRotation : magnusRotation;
+  turn(end.X_WCm.q, end.w_WB, body.inertia_B, body.inverse_inertia_B, h);
   return end;
 }
 
@@ -492,6 +504,8 @@ bool NewtonSolver::aimJoints(const ContactProblem& problem, double h) {
     if (!(miss < kShrinks * last)) {
       if (miss < kTurned) break;
       is_stiff_ = true;
+      sumTurning(problem);
+      stiffenTurns(h);
       return turnJoints(problem, h);
     }
     moveGoals();
@@ -519,7 +533,11 @@ bool NewtonSolver::solve(ContactProblem& problem, double h) {
   ++counts.solves;
   makeMasses(problem, h);
   free_turn_.clear();
-  is_stiff_ = !problem.joints.empty() && stiffenTurns(problem, h);
+  is_stiff_ = false;
+  if (!problem.joints.empty()) {
+    sumTurning(problem);
+    is_stiff_ = mayTurnFast(problem, h) && stiffenTurns(h);
+  }
   makeRows(problem, h);
   bool converged = guess() && minimise();
   for (int cone = 1; converged && cone < options_.max_cones + (is_stiff_ ? kTurns : 0); ++cone) {

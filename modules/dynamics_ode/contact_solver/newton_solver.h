@@ -67,7 +67,9 @@ class NewtonSolver {
   using Row = newton::Row;
 
   void makeMasses(const ContactProblem& problem, double h);
-  bool stiffenTurns(const ContactProblem& problem, double h);
+  void sumTurning(const ContactProblem& problem);
+  bool mayTurnFast(const ContactProblem& problem, double h) const;
+  bool stiffenTurns(double h);
   void makeRows(const ContactProblem& problem, double h);
   void addContact(const ContactProblem& problem, const ContactProblem::Contact& contact, double h);
   void addFinger(const ContactProblem& problem, const ContactProblem::Finger& finger, double h);
@@ -83,7 +85,7 @@ class NewtonSolver {
     Pose X_WCm;  // of the centre of mass, with the body's axes
     Vec3 w_WB;   // [rad/s]
   };
-  static End endOf(const ContactProblem::Body& body, const Vec6& v, double h);
+  End endOf(const ContactProblem::Body& body, const Vec6& v, double h) const;
   Pose poseAtEnd(std::int32_t i) const;
   bool turnJoints(const ContactProblem& problem, double h);
   void giveBackJoints(ContactProblem& problem, double h) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "modules/dynamics_ode/contact_solver/joined_pair.h"
+#include "modules/dynamics_ode/contact_solver/one_axis.h"
 #include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
@@ -148,6 +150,10 @@ void OwnSolvers::forgive(std::size_t island) {
 void OwnSolvers::solveProblem(std::size_t island, double h) {
   using Solver = DynamicsSettings::Solver;
   const Solver solver = options_.method.solver;
+  if (solver != Solver::kSmallSteps && (stepOnAxis(problem_, h) || stepJoinedPair(problem_, h))) {
+    ++counts.single_joints;
+    return;
+  }
   const std::size_t max_work = solver == Solver::kNewton ? kAnyWork : options_.newton_work;
   if (solver != Solver::kSmallSteps && !isRough(island) && !wobbles(h) && newton_.analyse(problem_, max_work)) {
     if (newton_.solve(problem_, h)) {
@@ -175,7 +181,7 @@ void OwnSolvers::giveBack(std::size_t island, FingerJoints& fingers, JointSet* l
     joint.m_B_W = problem_.contacts[k].m_B_W;
   }
   for (std::size_t k = 0; k < problem_.joints.size(); ++k) {
-    links->keep(links_.items[links_.first[island] + k], problem_.joints[k]);
+    links->keep(links_.items[links_.first[island] + k], problem_.joints[k], problem_.joints.size() == 1);
   }
   for (std::size_t k = 0; k < problem_.fingers.size(); ++k) {
     fingers.setForce(fingers_.items[fingers_.first[island] + k], problem_.fingers[k].f_B_W);

@@ -30,7 +30,7 @@ class OwnSolvers {
 
   static constexpr int kMinBackOff = 20, kMaxBackOff = 640;  // steps
   struct Counts {
-    std::uint64_t newton = 0, small_steps = 0;  ///< islands solved
+    std::uint64_t single_joints = 0, newton = 0, small_steps = 0;  ///< islands solved
   } counts;
   const NewtonSolver::Counts& newtonCounts() const noexcept { return newton_.counts; }
 

@@ -1,16 +1,18 @@
 #include "modules/dynamics_ode/convex/sweep.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace presa::ode {
 namespace {
 
 // in relation to the thinner body
-constexpr double kShortWay = 0.25;    // movement that its contacts cover
-constexpr double kMaxOverlap = 0.3;   // at which bodies stop
-constexpr double kMinAdvance = 0.15;  // between two looks, when they are as close as that
-constexpr int kMaxLooks = 64;         // then they stop where they were seen apart last
-constexpr int kRounds = 8;            // a body that stops is in the way of those behind it
+constexpr double kShortWay = 0.25;       // movement that its contacts cover
+constexpr double kMaxOverlap = 0.3;      // at which bodies stop
+constexpr double kMinAdvance = 0.15;     // between two looks, when they are as close as that
+constexpr double kRoundedUp = 1 + 1e-9;  // a bound
+constexpr int kMaxLooks = 64;            // then they stop where they were seen apart last
+constexpr int kRounds = 8;               // a body that stops is in the way of those behind it
 
 double widthOf(const Hull& hull) {
   if (hull.cylinder) return std::min(2 * hull.cylinder->radius, hull.cylinder->length);
@@ -38,7 +40,11 @@ Vec3 rotationVector(const Quat& q) {
 }  // namespace
 
 Sweep::Sweep(const BodySet& bodies)
-    : shapes_(bodies.shapeCount()), first_convex_(bodies.size(), kNone), ways_(bodies.size()), broad_phase_(bodies) {
+    : shapes_(bodies.shapeCount()),
+      first_convex_(bodies.size(), kNone),
+      rims_(bodies.size()),
+      ways_(bodies.size()),
+      broad_phase_(bodies) {
   std::size_t edges = 0, faces = 0;
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     if (bodies.hullOf(i) == nullptr) continue;
@@ -47,6 +53,8 @@ Sweep::Sweep(const BodySet& bodies)
     const Pose X_CmG = bodies.moves(body) ? bodies.centrePose(body).inverse() * bodies.poseOf(i) : Pose();
     shapes_[i] = {&hull, X_CmG, body, widthOf(hull), bodies.moves(body) ? rimOf(hull, X_CmG) : 0};
     if (first_convex_[body] == kNone) first_convex_[body] = i;
+    thinnest_ = std::min(thinnest_, shapes_[i].width);
+    rims_[body] = std::max(rims_[body], shapes_[i].rim);
     edges = std::max(edges, hull.edges.size());
     faces = std::max(faces, hull.faces.size());
     for (Hull& placed : placed_) presa::ode::place(hull, Pose(), placed);  // takes its memory
@@ -54,9 +62,22 @@ Sweep::Sweep(const BodySet& bodies)
   maker_.makeRoom(edges, faces);
 }
 
+// By a bound of the angle, without its arc tangent: true when all bodies move little.
+bool Sweep::moveLittle(const BodySet& bodies) const {
+  double longest = 0;
+  for (std::size_t i = 0; i < rims_.size(); ++i) {
+    if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
+    const BodySet::Motion &begin = bodies.motionAtBegin(i), end = bodies.motion(i);
+    const double sine = (end.q_WB * begin.q_WB.conjugate()).vec().norm();  // of half the angle
+    longest = std::max(longest, (end.p_WCm - begin.p_WCm).norm() + rims_[i] * std::numbers::pi * sine);
+  }
+  return 2 * kRoundedUp * longest < kShortWay * thinnest_;
+}
+
 // False when all bodies move little.
 bool Sweep::measureWays(const BodySet& bodies) {
-  double thinnest = 1e300, longest = 0;
+  if (moveLittle(bodies)) return false;
+  double longest = 0;
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     Way& way = ways_[i] = Way();
     if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
@@ -67,11 +88,10 @@ bool Sweep::measureWays(const BodySet& bodies) {
   }
   for (const Shape& shape : shapes_) {
     if (shape.hull == nullptr) continue;
-    thinnest = std::min(thinnest, shape.width);
     const Way& way = ways_[shape.body];
     longest = std::max(longest, way.shift.norm() + shape.rim * way.turn.norm());
   }
-  return 2 * longest > kShortWay * thinnest;
+  return 2 * longest > kShortWay * thinnest_;
 }
 
 double Sweep::travel(std::size_t A, std::size_t B) const {

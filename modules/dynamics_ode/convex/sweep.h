@@ -36,6 +36,7 @@ class Sweep {
     double end = 1;  // part of the way that the body may go
   };
   static constexpr std::size_t kNone = SIZE_MAX;
+  bool moveLittle(const BodySet& bodies) const;
   bool measureWays(const BodySet& bodies);
   bool stopPair(const BodySet& bodies, const BroadPhase::Pair& pair);
   bool stopShapes(const BodySet& bodies, std::size_t A, std::size_t B);
@@ -47,6 +48,8 @@ class Sweep {
 
   std::vector<Shape> shapes_;
   std::vector<std::size_t> first_convex_;  // by body: its first convex shape; kNone: it is not followed
+  std::vector<double> rims_;               // by body: the largest of its shapes
+  double thinnest_ = 1e300;                // of all widths
   std::vector<Way> ways_;                  // by body
   BroadPhase broad_phase_;
   ManifoldMaker maker_;

@@ -6,6 +6,8 @@
 namespace presa::ode {
 namespace {
 
+bool needsPosition(const JointAxis& axis) { return axis.lower || axis.upper || axis.stiffness > 0; }
+
 double nearest(double angle, double to) { return to + std::remainder(angle - to, 2 * std::numbers::pi); }
 
 }  // namespace
@@ -39,10 +41,10 @@ void JointSet::link(const BodySet& bodies, Islands& islands) const {
 void JointSet::read(const BodySet& bodies) {
   for (Link& link : links_) {
     const Joint& joint = *link.joint;
-    const JointPose at =
-        presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
+    link.at = presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
     for (std::size_t i = 0; i < joint.axes.size(); ++i) {
-      const double position = positionOf(joint, i, at);
+      if (!needsPosition(joint.axes[i])) continue;
+      const double position = positionOf(joint, i, link.at);
       link.position[i] = joint.axes[i].turns ? nearest(position, link.position[i]) : position;
     }
   }
@@ -66,6 +68,7 @@ ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, 
   joint.joint = link.joint;
   joint.frames.X_AJ = placed(A, link.joint->to, link.X_WA, link.frames.X_AJ, link.p_ACm);
   joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ, link.p_BCm);
+  joint.begin = link.at;
   joint.position = link.position;
   joint.f_B_W = link.f_B_W;
   joint.lead = link.next_lead;

@@ -19,20 +19,25 @@ class JointSet {
   bool empty() const noexcept { return links_.empty(); }
   /// Joins the islands of bodies that joints hold together.
   void link(const BodySet& bodies, Islands& islands) const;
-  /// Reads the positions of all joints; angles go on from those read last, beyond half a turn, too.
+  /// Reads how all joints stand, and the positions of axes with stops or springs; angles go on from those read last,
+  /// beyond half a turn, too.
   void read(const BodySet& bodies);
   /// A body that moves of joint i; BodySet::size() if there is none.
   std::size_t movingBody(std::size_t i, const BodySet& bodies) const;
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
   const Joint& joint(std::size_t i) const { return *links_[i].joint; }
-  /// Keeps what the solver found of joint i for the next step.
-  void keep(std::size_t i, const ContactProblem::Joint& solved) {
-    links_[i].f_B_W = solved.f_B_W;
+  /// Keeps what the solver found of joint i for the next step, and how its leads go on: as a line, as a parabola where it
+  /// is the only joint of its island. In a loop a part of them is undetermined, and would run away on a parabola.
+  void keep(std::size_t i, const ContactProblem::Joint& solved, bool alone) {
+    Link& link = links_[i];
+    link.f_B_W = solved.f_B_W;
     for (std::size_t k = 0; k < solved.lead.size(); ++k) {
-      links_[i].next_lead[k] = 2 * solved.lead[k] - links_[i].lead[k];  // goes on as it went
+      const double grows = solved.lead[k] - link.lead[k], grew = link.lead[k] - link.last_lead[k];
+      link.next_lead[k] = solved.lead[k] + (alone ? 2 * grows - grew : grows);
     }
-    links_[i].lead = solved.lead;
+    link.last_lead = link.lead;
+    link.lead = solved.lead;
   }
 
  private:
@@ -41,8 +46,9 @@ class JointSet {
     JointFrames frames;                               // in the frames of the bodies
     Vec3 p_BCm = Vec3::Zero(), p_ACm = Vec3::Zero();  // centres of mass
     Pose X_WB, X_WA;                                  // at the start
+    JointPose at;                                     // at the last read()
     std::array<double, Joint::kMaxAxes> position{};
-    std::array<double, 6> lead{}, next_lead{};
+    std::array<double, 6> last_lead{}, lead{}, next_lead{};
     Vec3 f_B_W = Vec3::Zero();  // in the last step
   };
   static Pose poseNow(std::size_t body, const Pose& start, const BodySet& bodies);
