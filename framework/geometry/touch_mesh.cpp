@@ -15,7 +15,7 @@ namespace {
 constexpr double kKnownTo = 0.02;    // difference of the two bounds of a distance, relative to what is allowed
 constexpr double kNearEnough = 1.1;  // of the numbers of triangles between which the search ends
 constexpr std::size_t kFewest = 8, kSteps = 10;
-constexpr std::size_t kCutTriangles = 4000;   // of the mesh that is cut into pieces
+constexpr std::size_t kCutTriangles = 4000;  // of the mesh that is cut into pieces
 constexpr double kSolidKnownTo = 1.0 / 500;  // difference of the bounds for pieces, relative to the mesh's size
 
 double sizeOfMesh(const TriMesh& mesh) {
@@ -31,6 +31,12 @@ bool isAsWhole(const TriMesh& mesh, const MeshReport& original) {
          (report.open_edges == 0 || original.open_edges > 0);
 }
 
+/// volatile: of two such roundings side by side GCC 12 makes none from -O2 on, where it vectorises them.
+double inSinglePrecision(double x) {
+  const volatile float single = static_cast<float>(x);
+  return static_cast<double>(single);
+}
+
 /// The piece as a file keeps it, in single precision. Narrow triangles may lean by that rounding, and the piece is convex no
 /// more: then with fewer vertices, of which those that matter least for the shape are left out first.
 TriMesh asInFile(const TriMesh& piece) {
@@ -39,7 +45,7 @@ TriMesh asInFile(const TriMesh& piece) {
   const double apart = kApart * sizeOfMesh(piece);
   std::vector<Vec3> points;
   for (const Vec3& v : piece.vertices) {
-    const Vec3 rounded = v.cast<float>().cast<double>();
+    const Vec3 rounded{inSinglePrecision(v.x()), inSinglePrecision(v.y()), inSinglePrecision(v.z())};
     const auto is_near = [&](const Vec3& other) { return (other - rounded).norm() < apart; };
     if (std::ranges::none_of(points, is_near)) points.push_back(rounded);
   }

@@ -88,7 +88,7 @@ std::string write(const Wanted& wanted, const Made& made) {
   };
   put(hapticFile(made.name), objText(made.haptic.mesh));
   for (std::size_t i = 0; i < made.physics.pieces.size(); ++i)
-    put(pieceFile(made.name, i), objText(made.physics.pieces[i]));
+    put(pieceFile(made.name, i), objText(made.physics.pieces[i], 9));
   return put(bodyFile(made.name), bodyText(wanted, made));
 }
 

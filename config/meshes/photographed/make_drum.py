@@ -31,7 +31,9 @@ class Noise:
         self.table = [random.Random(seed * 7919 + i).random() for i in range(4096)]
 
     def corner(self, x, y, z):
-        return self.table[(x * 1619 + y * 31337 + z * 6971) & 4095]
+        h = (x * 0x8da6b343 ^ y * 0xd8163841 ^ z * 0xcb1ab31f) & 0xffffffff
+        h = (h ^ h >> 15) * 0x2c1b3c6d & 0xffffffff
+        return self.table[(h ^ h >> 13) & 4095]
 
     def __call__(self, x, y, z):
         i, j, k = floor(x), floor(y), floor(z)
@@ -49,9 +51,12 @@ CLOUD, STAIN, GRAIN, PIT, LICHEN, CHIP, STREAK = (Noise(seed) for seed in range(
 
 def octaves(noise, p, frequency, count):
     total, weight, sum_of_weights = 0.0, 1.0, 0.0
+    x, y, z = p
     for i in range(count):
+        # turned from octave to octave, so that no lattice shows
+        x, y, z = 0.36 * x + 0.48 * y - 0.8 * z, -0.8 * x + 0.6 * y, 0.48 * x + 0.64 * y + 0.6 * z
         f = frequency * 2 ** i
-        total += weight * noise(p[0] * f + 13.7 * i, p[1] * f, p[2] * f)
+        total += weight * noise(x * f + 13.7 * i, y * f, z * f)
         sum_of_weights += weight
         weight /= 2
     return total / sum_of_weights
@@ -69,7 +74,7 @@ def edge(p):
 
 
 def pits(p):
-    return smooth(0.62, 0.80, PIT(p[0] * 330, p[1] * 330, p[2] * 330)) * smooth(0.35, 0.6, octaves(STAIN, p, 60, 2))
+    return smooth(0.60, 0.78, octaves(PIT, p, 420, 2)) * smooth(0.40, 0.65, octaves(STAIN, p, 60, 2))
 
 
 def relief(p):
@@ -88,15 +93,15 @@ def paint(p, upright):
     soot = 0.75 * streak * upright + 0.35 * (1 - upright) * smooth(0.5, 0.75, cloud)
     color = [c + soot * (s - c) for c, s in zip(color, (0.27, 0.25, 0.23))]
     # lichen: round patches with a pale rim
-    spots = octaves(LICHEN, p, 75, 2)
-    lichen = smooth(0.70, 0.735, spots)
-    rim = lichen * (1 - smooth(0.745, 0.79, spots))
-    green = [a + rim * (b - a) for a, b in zip((0.52, 0.53, 0.34), (0.80, 0.79, 0.62))]
-    color = [c + 0.85 * lichen * (g - c) for c, g in zip(color, green)]
+    spots = octaves(LICHEN, p, 70, 4)
+    lichen = smooth(0.655, 0.70, spots)
+    rim = lichen * (1 - smooth(0.70, 0.74, spots))
+    green = [a + rim * (b - a) for a, b in zip((0.58, 0.57, 0.42), (0.78, 0.76, 0.62))]
+    color = [c + 0.6 * lichen * (g - c) for c, g in zip(color, green)]
     # broken edges are fresh
     fresh = edge(p) * smooth(0.50, 0.62, octaves(CHIP, p, 95, 2))
     color = [c + 0.8 * fresh * (f - c) for c, f in zip(color, (0.88, 0.83, 0.74))]
-    shade = (0.72 + 0.42 * cloud) * (0.80 + 0.34 * grain) * (1 - 0.6 * pits(p))
+    shade = (0.72 + 0.42 * cloud) * (0.80 + 0.34 * grain) * (1 - 0.45 * pits(p))
     rough = 0.80 + 0.15 * grain - 0.30 * ochre * (1 - soot) * (1 - lichen)
     return [min(max(c * shade, 0), 1) for c in color], min(max(rough, 0.05), 1)
 

@@ -23,7 +23,7 @@ struct Mistake {
 
 constexpr Mistake kMistakes[] = {
     // no command, or another one
-    {"", 2, "presa: error[E123]: a command is missing: run, check, explain"},
+    {"", 2, "presa: error[E123]: a command is missing: run, gallery, check, explain"},
     {"rnu", 2, "presa: error[E123]: there is no command 'rnu' (did you mean 'run'?)"},
     {"chekc CUBE", 2, "there is no command 'chekc' (did you mean 'check'?)"},
     {"experimnet", 2, "there is no command 'experimnet' (did you mean 'experiment'?)"},

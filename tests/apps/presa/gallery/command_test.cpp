@@ -75,7 +75,7 @@ TEST(GalleryCommand, RunsASceneAsPresaRunDoes) {
 // The first hand is the mouse's; another one keeps its devices and their settings.
 TEST(GalleryCommand, TheMouseTakesTheFirstHand) {
   Scene scene;
-  for (const char* role : {"left_thumb", "left_index", "right_thumb"}) scene.devices.push_back({.role = role});
+  for (const char* role : {"left_thumb", "left_index", "right_thumb"}) scene.devices.emplace_back().role = role;
   Rig own;
   own.devices.resize(2);
   own.devices[0].role = "left_thumb", own.devices[1].role = "right_thumb";

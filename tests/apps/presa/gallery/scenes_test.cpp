@@ -70,7 +70,7 @@ TEST_P(GalleryScene, RunsWithMouseAndKeys) {
   Session::Options session;
   session.open_devices = false;  // avoids the check for a window
   session.more.push_back(std::make_unique<StillMouse>());
-  Run run(std::move(loaded), control, std::move(session));
+  presa::Run run(std::move(loaded), control, std::move(session));
   run.execute();
   for (const FingerSummary& finger : run.monitor().fingers()) EXPECT_LE(finger.max_commanded_force, 12.0);
 }
