@@ -39,7 +39,7 @@ TEST_F(ModelCommand, WritesABodyThatLoads) {
   ASSERT_TRUE(made) << found.text();
   EXPECT_EQ(made->name, "drum");
   EXPECT_LE(made->haptic.distance(), 0.001);
-  EXPECT_LT(made->haptic.mesh.triangles.size(), made->triangles / 3);
+  EXPECT_LT(made->haptic.mesh.triangles.size(), made->triangles / 2);
   EXPECT_EQ(made->physics.pieces.size(), 2u);
   const std::string body = model::write(wanted_, *made);
   EXPECT_TRUE(fs::exists(body));
