@@ -92,7 +92,10 @@ struct SceneAndRig {
 /// None if the scene could not be read or names a forbidden rig file: then there is nothing more to check.
 std::optional<SceneAndRig> readSceneAndRig(const Inputs& inputs, const RunOptions& options, Diagnostics& diagnostics) {
   const std::vector<Override> overrides = parseSets(inputs.sets, diagnostics);
-  Scene scene = loadScene(inputs.scene, overrides, diagnostics);
+  Scene scene = inputs.scene_xml.empty() ? loadScene(inputs.scene, overrides, diagnostics)
+                                         : parseScene(inputs.scene_xml, inputs.scene, ".", overrides, diagnostics);
+  if (!inputs.rig_xml.empty())
+    return SceneAndRig{std::move(scene), parseRig(inputs.rig_xml, "rig of " + inputs.scene, ".", diagnostics)};
   const std::string rig_file = inputs.rig.empty() ? scene.default_rig : inputs.rig;
   Rig rig;
   const bool named = inputs.rig.empty() && !rig_file.empty();  // by the scene, not by the user

@@ -17,6 +17,9 @@ struct Inputs {
   std::string scene;
   std::string rig;                ///< empty: the rig that the scene names
   std::vector<std::string> sets;  ///< PATH=VALUE
+  /// A scene or rig in no file; empty: it stands in the file. `scene` is then its name in messages, and paths resolve
+  /// against the working directory.
+  std::string scene_xml{}, rig_xml{};
 };
 
 /// A run that is checked and can start.

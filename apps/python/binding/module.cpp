@@ -1,10 +1,7 @@
 // The Python module presa._presa: a simulation that is stepped, its states as numpy views.
-#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
-#include <cstdio>
 
 #include "apps/python/binding/simulation.h"
 #include "framework/device/output_stage.h"

@@ -4,22 +4,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "framework/scene/load.h"
+#include "framework/scene/xml/escaped.h"
 #include "framework/session/load_world.h"
 
 namespace presa::python {
 namespace {
 
 enum SimulationCode { kFingersMissing = 150 };
-
-std::vector<Override> overridesOf(const std::vector<std::string>& sets) {
-  std::vector<Override> overrides;
-  for (const std::string& set : sets) {
-    const std::size_t equals = set.find('=');
-    overrides.push_back({set.substr(0, equals), equals == std::string::npos ? "" : set.substr(equals + 1)});
-  }
-  return overrides;
-}
 
 /// Every role must be given, and nothing but roles.
 void checkRoles(const Scene& scene, const Setup& setup, Diagnostics& diagnostics) {
@@ -38,31 +29,14 @@ void checkRoles(const Scene& scene, const Setup& setup, Diagnostics& diagnostics
   }
 }
 
-/// The rig of fingers that a program moves: a driver that needs nothing and is not made.
-std::string placeholderRig(const Scene& scene) {
-  std::string xml = "<rig version=\"1.0\" name=\"moved_fingers\">";
-  for (const DeviceRole& device : scene.devices) xml += "<device role=\"" + device.role + "\" driver=\"pointer\"/>";
-  return xml + "</rig>";
-}
-
-std::string rigOf(const Scene& scene, const Setup& setup, Diagnostics& diagnostics) {
-  if (!setup.fingers.empty()) return placeholderRig(scene);
-  const std::string file = setup.rig.empty() ? scene.default_rig : setup.rig;
-  return file.empty() ? "" : loadRig(file, diagnostics).resolved_xml;
-}
-
-Loaded load(const Setup& setup, RunOptions options, Diagnostics& diagnostics) {
-  if (setup.fingers.empty() && setup.text.empty())
-    return loadWorld({setup.scene, setup.rig, setup.sets}, std::move(options), diagnostics);
-  const auto overrides = overridesOf(setup.sets);
-  const Scene scene = setup.text.empty() ? loadScene(setup.scene, overrides, diagnostics)
-                                         : parseScene(setup.text, setup.scene, ".", overrides, diagnostics);
-  if (!setup.fingers.empty() && !diagnostics.hasErrors()) checkRoles(scene, setup, diagnostics);
-  if (diagnostics.hasErrors()) return {};
-  const RunTexts texts{scene.resolved_xml, setup.scene, rigOf(scene, setup, diagnostics)};
-  if (diagnostics.hasErrors()) return {};
-  return setup.fingers.empty() ? loadWorldFromText(texts, std::move(options), diagnostics)
-                               : loadWithoutDevices(texts, std::move(options), diagnostics);
+/// Binds the fingers that a program moves to the driver whose rating holds for them. MovedFinger takes its place; a
+/// recording keeps the rig, and its replay needs no program.
+std::string rigOfMoved(const Setup& setup) {
+  if (setup.fingers.empty()) return {};
+  std::string text = "<rig version=\"1.0\" name=\"moved_fingers\">";
+  for (const auto& [role, place] : setup.fingers)
+    text += "<device role=\"" + xml::escaped(role) + "\" driver=\"pointer\"/>";
+  return text + "</rig>";
 }
 
 }  // namespace
@@ -74,9 +48,12 @@ Simulation::Read Simulation::read(const Setup& setup) {
   options.duration = setup.duration > 0 ? setup.duration : setup.fingers.empty() ? 0 : Simulation::kEndless;
   options.record = setup.record;
   options.overwrite = setup.overwrite;
-  options.bound_stiffness = true;  // as `presa run`
+  options.bound_stiffness = setup.fingers.empty();  // as `presa run`; a moved finger yields to no force
   Diagnostics diagnostics;
-  Read read{load(setup, std::move(options), diagnostics), {}};
+  Read read{
+      loadWorld({setup.scene, setup.rig, setup.sets, setup.text, rigOfMoved(setup)}, std::move(options), diagnostics),
+      {}};
+  if (!setup.fingers.empty() && read.loaded.world) checkRoles(read.loaded.world->scene, setup, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   for (const Diagnostic& finding : diagnostics.all()) read.notes.push_back(format(finding));
   return read;
