@@ -274,8 +274,7 @@ void TerminalRun::poll() {
       result_.notes.emplace_back(text.data());
     }
   }
-  if (const View* view = run_->session().view(); view != nullptr && (view->wantsStop() || view->sceneWanted()))
-    control_.stop_requested = true;
+  if (const View* view = run_->session().view(); view != nullptr && view->wantsStop()) control_.stop_requested = true;
   noteObjectFaults();
   noteFrames();
   noteGuide();

@@ -49,7 +49,7 @@ class View : public Module {
   /// Number of requests to go on to what is offered next (Space or Return in a visitor's window). From any thread.
   virtual std::uint32_t onwardsWanted() const noexcept { return 0; }
 
-  /// The scene that the user chose in the menu, if any. From any thread.
+  /// The scene that the user chose in the menu, if any; then the view wants to stop, too. From any thread.
   virtual std::optional<SceneWish> sceneWanted() const noexcept { return std::nullopt; }
 
   /// Resolution at which the last frame's bodies were drawn, as a share of the window's width and height; below 1 to

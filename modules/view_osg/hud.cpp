@@ -98,7 +98,8 @@ Hud::Hud(const World& world, const RunOptions& options)
   center_->addChild(help_);
 
   addTitle(world);
-  if (options.view == RunOptions::View::kWindow && !plain_ && !assembly_) addSentence(world.scene.description);
+  if (options.view == RunOptions::View::kWindow && !plain_ && !assembly_ && level_ == Level::kFull)
+    addSentence(world.scene.description);
   for (std::size_t i = 0; i < world.scene.devices.size(); ++i) addCard(i);
   if (cards_.size() > 1) addGrip();
   grip_scale_ = maxGripForce(world.scene.devices);

@@ -184,10 +184,12 @@ void ViewModule::drawWindow() {
   onwards_.store(renderer_->inputs().onwards, std::memory_order_relaxed);
   inputs_.store(renderer_->inputs().all, std::memory_order_relaxed);
   sharpness_.store(renderer_->sharpness(), std::memory_order_relaxed);
-  if (const SceneMenu* const menu = picture_->hud().menu(); menu != nullptr && menu->wish())
+  const SceneMenu* const menu = picture_->hud().menu();
+  const bool wished = menu != nullptr && menu->wish();
+  if (wished)
     wish_.store(static_cast<std::int64_t>(2 * menu->wish()->scene) + (menu->wish()->by_hand ? 1 : 0),
                 std::memory_order_relaxed);
-  if (renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);
+  if (wished || renderer_->closed()) wants_stop_.store(true, std::memory_order_relaxed);  // also while time is paused
   if (!renderer_->takePictureRequest()) return;
   const std::string file = "presa-" + world_->scene.name + "-" + timeStamp(frame_.time) + "s.png";
   const std::string trouble = savePicture(file);

@@ -33,8 +33,7 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
     ++inputs.all;
   switch (event.getEventType()) {
     case Event::RESIZE:
-      aspect_ = static_cast<double>(event.getWindowWidth()) / std::max(1, event.getWindowHeight());
-      camera_.setAspect(aspect_);
+      setAspect(static_cast<double>(event.getWindowWidth()) / std::max(1, event.getWindowHeight()));
       return false;
     case Event::PUSH:
       dragged_ = 0;

@@ -36,7 +36,10 @@ class WindowInput : public osgGA::GUIEventHandler {
   bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override;
 
   /// Width over height of the window; resizing it does the same.
-  void setAspect(double aspect) { aspect_ = aspect; }
+  void setAspect(double aspect) {
+    aspect_ = aspect;
+    camera_.setAspect(aspect);
+  }
 
   Inputs inputs;
   bool picture_requested = false;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/common/atomic_file.h"
 #include "apps/common/exit_status.h"
-#include "apps/common/scratch_folder.h"
 #include "apps/presa/gallery/groups.h"
 #include "apps/presa/gallery/mouse_rig.h"
 #include "framework/scene/load.h"
@@ -21,14 +19,12 @@ SceneOffer offerOf(const std::vector<Entry>& entries, std::size_t now) {
   return offer;
 }
 
-/// Writes the rig for mouse and keys to `file`. False: the scene has no finger.
-bool writeMouseRig(const RunArguments& arguments, const std::string& file) {
+/// The rig for mouse and keys. Empty: the scene has no finger.
+std::string mouseRigOf(const std::string& file) {
   Diagnostics later;  // the run reports them
-  const Scene scene = loadScene(arguments.inputs.scene, {}, later);
-  if (scene.devices.empty()) return false;
-  const Rig own = scene.default_rig.empty() ? Rig{} : loadRig(scene.default_rig, later);
-  writeFileAtomically(file, mouseRig(scene, own));
-  return true;
+  const Scene scene = loadScene(file, {}, later);
+  if (scene.devices.empty()) return {};
+  return mouseRig(scene, scene.default_rig.empty() ? Rig{} : loadRig(scene.default_rig, later));
 }
 
 /// No end but the user's.
@@ -40,32 +36,39 @@ void leaveOpen(RunArguments& arguments) {
 /// What only the first run has: its files, and its words at the terminal.
 void forgetFiles(RunArguments& arguments) {
   RunOptions& options = arguments.options;
-  for (std::string* file : {&options.record, &options.flight, &options.screenshot, &options.video, &arguments.summary,
-                            &arguments.report, &arguments.inputs.rig})
+  for (std::string* file :
+       {&options.record, &options.flight, &options.screenshot, &options.video, &arguments.summary, &arguments.report})
     file->clear();
   options.screenshot_time = RunOptions{}.screenshot_time;
-  arguments.inputs.sets.clear();
   arguments.quiet = true;
+}
+
+/// What was said of one scene and may not fit another one.
+void forgetScene(RunArguments& arguments) {
+  arguments.inputs.rig.clear();
+  arguments.inputs.sets.clear();
+  arguments.speed = 0;
 }
 
 }  // namespace
 
 int play(const std::vector<Entry>& entries, std::size_t first, bool by_hand, RunArguments arguments) {
-  const ScratchFolder scratch;
   const bool repeats = !(arguments.options.duration > 0);
   SceneWish now{first, by_hand};
   for (int worst = kExitOk;;) {
     RunArguments run = arguments;
     run.inputs.scene = entries[now.scene].file;
-    if (now.by_hand && run.inputs.rig.empty() && writeMouseRig(run, scratch.file("mouse.xml"))) {
-      run.inputs.rig = scratch.file("mouse.xml");
-      if (repeats) leaveOpen(run);
-    }
+    if (now.by_hand && run.inputs.rig.empty()) run.inputs.rig_xml = mouseRigOf(run.inputs.scene);
+    if (!run.inputs.rig_xml.empty() && repeats) leaveOpen(run);
     const bool windowed = viewOf(run) == RunOptions::View::kWindow;
     const RunEnd end = runScene(std::move(run), windowed ? offerOf(entries, now.scene) : SceneOffer{});
     worst = std::max(worst, end.status);
-    if (!windowed || (!end.wish && !(end.complete && repeats))) return worst;
-    if (end.wish) now = *end.wish;
+    const bool again = end.complete && repeats;
+    if (!windowed || end.status == kExitInterrupted || !(end.wish || again)) return worst;
+    if (end.wish) {
+      now = *end.wish;
+      forgetScene(arguments);
+    }
     forgetFiles(arguments);
   }
 }
