@@ -33,7 +33,8 @@ struct AxisLaws {
   std::size_t count = 0;
   std::array<AxisLaw, 6> law;
 
-  std::span<const AxisLaw> all() const noexcept { return std::span(law).first(count); }
+  std::span<const AxisLaw> all() const& noexcept { return std::span(law).first(count); }
+  std::span<const AxisLaw> all() && = delete;  // a loop over it would outlive it
   AxisLaw& add(double k) noexcept {
     law[count].k = k;
     return law[count++];

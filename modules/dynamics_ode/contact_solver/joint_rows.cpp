@@ -152,7 +152,8 @@ class RowMaker {
   void makeAxis(const JointAxis& axis, std::size_t i) {
     AxisRow row = along(i);
     const double u = axis.stiffness > 0 ? speedOf(row) : 0;
-    for (const AxisLaw& law : lawsOf(axis, joint_.position[i], u, row.k, h_).all()) {
+    const AxisLaws laws = lawsOf(axis, joint_.position[i], u, row.k, h_);
+    for (const AxisLaw& law : laws.all()) {
       static_cast<AxisLaw&>(row) = law;
       rows_.push_back(row);
     }
