@@ -6,16 +6,20 @@ set(presa_common_headers
   <filesystem> <fstream> <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string>
   <string_view> <utility> <variant> <vector>)
 
-# presa_precompiled(NAME HEADERS… LIBRARIES…): the object library that others take the parsed headers from
+# Tests spend their time in the libraries, not in their own code, which takes a third less time to compile this way.
+set(presa_test_options $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-Og>)
+
+# presa_precompiled(NAME HEADERS… LIBRARIES… OPTIONS…): the object library that others take the parsed headers from
 function(presa_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
   file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp.new "")
   configure_file(${CMAKE_BINARY_DIR}/${name}.cpp.new ${CMAKE_BINARY_DIR}/${name}.cpp COPYONLY)
   add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE presa_options ${ARG_LIBRARIES})
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
   # what ccache goes by in place of the parsed headers, which are another file in each build folder
-  string(SHA256 sum "${ARG_HEADERS} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${Eigen3_VERSION} ${GTest_VERSION}")
+  string(SHA256 sum "${ARG_HEADERS} ${ARG_OPTIONS} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${Eigen3_VERSION} ${GTest_VERSION}")
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum ${sum})
 endfunction()
 
@@ -35,6 +39,7 @@ function(presa_precompile folder)
     get_target_property(libraries ${target} LINK_LIBRARIES)
     if(libraries MATCHES "GTest::gtest")
       set(from presa_precompiled_test_headers)
+      target_compile_options(${target} PRIVATE ${presa_test_options})
     endif()
     target_precompile_headers(${target} REUSE_FROM ${from})
   endforeach()
