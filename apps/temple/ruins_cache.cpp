@@ -31,7 +31,9 @@ std::string ruinsCacheFile(const Building& building, std::uint64_t seed) {
   Fnv1a hash;
   hash.add(versionText());
   hash.addWord(seed);
-  hash.add(sceneText(building, assembled(building)));
+  SceneSpec spec = assembled(building);
+  spec.physics_only = true;  // ruins do not depend on what is drawn
+  hash.add(sceneText(building, spec));
   for (const SceneFile& file : meshFiles(building, true)) hash.add(file.text);
   char name[32];
   std::snprintf(name, sizeof name, "%016llx.json", static_cast<unsigned long long>(hash.value()));

@@ -30,6 +30,8 @@ std::optional<ImageSize> sizeOfJpeg(std::string_view bytes) {
       ++at;
       continue;
     }
+    // without a length, and in no head before the frame: a decoder would look behind them for another frame
+    if (marker <= 0x01 || (marker >= 0xd0 && marker <= 0xda)) return std::nullopt;
     const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (frame) return ImageSize{ImageSize::Format::kJpeg, number(bytes, at + 7, 2), number(bytes, at + 5, 2)};
     const std::uint32_t length = number(bytes, at + 2, 2);

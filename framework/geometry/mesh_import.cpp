@@ -144,6 +144,25 @@ bool Import::take(const ImportedMesh& imported) {
   return imported.model.part_count == 0 || takeModel(imported.model);
 }
 
+/// Normals of the file stay where they agree with the turned triangles.
+void turnInsideOut(Model& model) {
+  double agreement = 0;
+  for (std::size_t c = 0; c + 2 < model.corners.size(); c += 3) {
+    std::swap(model.corners[c], model.corners[c + 1]);
+    std::array<Eigen::Vector3d, 3> p;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const ModelVertex& vertex = model.vertices[model.corners[c + i]];
+      p[i] = Eigen::Map<const Eigen::Vector3f>(vertex.position.data()).cast<double>();
+      normal += Eigen::Map<const Eigen::Vector3f>(vertex.normal.data()).cast<double>();
+    }
+    agreement += normal.dot((p[1] - p[0]).cross(p[2] - p[0]));
+  }
+  if (agreement >= 0) return;
+  for (ModelVertex& vertex : model.vertices)
+    for (float& n : vertex.normal) n = 0.0F - n;
+}
+
 ModelMaterial materialOf(const ImportedMaterial& from) {
   ModelMaterial material;
   material.color = Vec3(from.color[0], from.color[1], from.color[2]);
@@ -167,9 +186,7 @@ bool Import::takeModel(const ImportedModel& imported) {
     std::copy_n(from + 8, 3, to.color.begin());
   }
   model_->corners.assign(imported.corners, imported.corners + imported.corner_count);
-  if (options_.scale.prod() < 0)
-    for (std::size_t c = 0; c + 2 < model_->corners.size(); c += 3)
-      std::swap(model_->corners[c], model_->corners[c + 1]);
+  if (options_.scale.prod() < 0) turnInsideOut(*model_);
   for (std::size_t i = 0; i < imported.part_count; ++i) {
     const ImportedPart& part = imported.parts[i];
     model_->parts.push_back({part.first_vertex, part.vertex_count, part.first_corner, part.corner_count,
@@ -266,6 +283,7 @@ bool Import::checkClosed(const MeshReport& report) {
   }
   if (report.inverted) {
     turnInsideOut(mesh_);
+    if (model_ != nullptr) turnInsideOut(*model_);
     warn(311, "it is inside out and was turned", "flip the normals in the file to avoid this warning");
   }
   return true;

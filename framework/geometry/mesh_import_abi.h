@@ -5,7 +5,7 @@
 /// framework depends on no header of the mesh library.
 namespace presa {
 
-inline constexpr std::uint32_t kMeshImportAbi = 3;
+inline constexpr std::uint32_t kMeshImportAbi = 4;
 
 /// Maximum size of all files of one mesh together [bytes]: five million triangles as binary STL.
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{256} << 20U;
@@ -38,11 +38,9 @@ struct ImportedModel {
   const ImportedPart* parts = nullptr;
   std::uint64_t part_count = 0;
   const ImportedMaterial* materials = nullptr;
-  std::uint64_t material_count = 0;
   const ImportedTexture* textures = nullptr;
   std::uint64_t texture_count = 0;
   const char* text = nullptr;
-  std::uint64_t text_size = 0;
   const char* missing_library = nullptr;  ///< file of materials that is not there; null: none
 };
 

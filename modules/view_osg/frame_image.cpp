@@ -12,13 +12,12 @@
 #include <osgDB/Registry>
 #include <sstream>
 
+#include "framework/geometry/srgb.h"
+
 namespace presa::view {
 namespace {
 
 constexpr int kLightSteps = 4096;
-
-double toLight(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-double toCode(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 /// A pixel that covers its background by `alpha`: its colour over black is alpha times its own.
 struct Cover {
@@ -31,7 +30,7 @@ struct Cover {
     const double covered = 1 - through / 765.0;
     if (covered <= 0) return;
     alpha += covered;
-    for (std::size_t c = 0; c < 3; ++c) light[c] += covered * toLight(std::min(1.0, black[c] / (255 * covered)));
+    for (std::size_t c = 0; c < 3; ++c) light[c] += covered * srgb::toLinear(std::min(1.0, black[c] / (255 * covered)));
   }
 };
 
@@ -39,9 +38,10 @@ struct SrgbTables {
   std::array<float, 256> light;
   std::array<unsigned char, kLightSteps + 1> code;
   SrgbTables() {
-    for (std::size_t i = 0; i < light.size(); ++i) light[i] = static_cast<float>(toLight(static_cast<double>(i) / 255));
+    for (std::size_t i = 0; i < light.size(); ++i)
+      light[i] = static_cast<float>(srgb::toLinear(static_cast<double>(i) / 255));
     for (std::size_t i = 0; i < code.size(); ++i)
-      code[i] = static_cast<unsigned char>(std::lround(255 * toCode(static_cast<double>(i) / kLightSteps)));
+      code[i] = static_cast<unsigned char>(std::lround(255 * srgb::fromLinear(static_cast<double>(i) / kLightSteps)));
   }
 };
 
@@ -88,9 +88,9 @@ osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& 
       }
       unsigned char* pixel = small->data(x, y);
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = sum.alpha > 0
-                       ? static_cast<unsigned char>(std::lround(255 * toCode(std::min(1.0, sum.light[c] / sum.alpha))))
-                       : 0;
+        pixel[c] = sum.alpha > 0 ? static_cast<unsigned char>(
+                                       std::lround(255 * srgb::fromLinear(std::min(1.0, sum.light[c] / sum.alpha))))
+                                 : 0;
       pixel[3] = static_cast<unsigned char>(std::lround(255 * sum.alpha / (factor * factor)));
     }
   }

@@ -6,6 +6,7 @@
 #include "apps/common/atomic_file.h"
 #include "apps/common/terminal/text.h"
 #include "framework/geometry/obj_text.h"
+#include "framework/scene/xml/escaped.h"
 
 namespace presa::model {
 namespace {
@@ -45,7 +46,7 @@ void checkTarget(const Wanted& wanted, Diagnostics& diagnostics) {
     return;
   }
   const std::string name = nameOf(wanted.file);
-  for (const std::string& file : {hapticFile(name), bodyFile(name)}) {
+  for (const std::string& file : {hapticFile(name), pieceFile(name, 0), bodyFile(name)}) {
     const fs::path path = fs::path(wanted.folder) / file;
     if (wanted.overwrite || !fs::exists(path, error)) continue;
     diagnostics.error(kTarget, {path.string(), 0, 0}, "exists already",
@@ -71,8 +72,8 @@ std::string bodyText(const Wanted& wanted, const Made& made) {
   const std::string visual = fs::proximate(wanted.file, wanted.folder).generic_string();
   const std::string scale =
       wanted.scale == 1 ? "" : terminal::format(" scale=\"%.9g %.9g %.9g\"", wanted.scale, wanted.scale, wanted.scale);
-  std::string text = "<body name=\"" + made.name + "\">\n  <visual><mesh file=\"" + visual + "\"" + scale +
-                     "/></visual>\n  <haptic><mesh file=\"" + hapticFile(made.name) + "\"/></haptic>\n" +
+  std::string text = "<body name=\"" + made.name + "\">\n  <visual><mesh file=\"" + xml::escaped(visual) + "\"" +
+                     scale + "/></visual>\n  <haptic><mesh file=\"" + hapticFile(made.name) + "\"/></haptic>\n" +
                      terminal::format("  <physics density=\"%.9g\">\n", wanted.density);
   for (std::size_t i = 0; i < made.physics.pieces.size(); ++i)
     text += "    <mesh file=\"" + pieceFile(made.name, i) + "\"/>\n";

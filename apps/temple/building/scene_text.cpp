@@ -6,6 +6,7 @@
 
 #include "apps/temple/building/assembly_text.h"
 #include "framework/geometry/obj_text.h"
+#include "framework/scene/xml/escaped.h"
 
 namespace presa::temple {
 namespace {
@@ -22,13 +23,6 @@ namespace {
 std::string poseText(const Pose& X) {
   return format("pos=\"%.17g %.17g %.17g\" quat=\"%.17g %.17g %.17g %.17g\"", X.p.x(), X.p.y(), X.p.z(), X.q.w(),
                 X.q.x(), X.q.y(), X.q.z());
-}
-
-/// For an attribute: a folder's name may hold anything.
-std::string xmlText(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '&' ? "&amp;" : c == '"' ? "&quot;" : c == '<' ? "&lt;" : std::string(1, c);
-  return out;
 }
 
 std::string meshName(const Block& block, const char* role) { return "meshes/" + block.name + "_" + role + ".obj"; }
@@ -68,7 +62,7 @@ const char* materialOf(BlockKind kind, bool painted) {
 std::string visualText(const Block& block) {
   if (!block.model) return "<visual><mesh file=\"" + meshName(block, "visual") + "\"/></visual>";
   const auto& [file, scale, p] = *block.model;
-  return format("<visual pos=\"%.9g %.9g %.9g\"><mesh file=\"", p.x(), p.y(), p.z()) + xmlText(file) +
+  return format("<visual pos=\"%.9g %.9g %.9g\"><mesh file=\"", p.x(), p.y(), p.z()) + xml::escaped(file) +
          format("\" scale=\"%.9g %.9g %.9g\"/></visual>", scale.x(), scale.y(), scale.z());
 }
 

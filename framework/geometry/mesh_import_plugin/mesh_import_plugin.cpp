@@ -36,9 +36,9 @@ struct OwnedMesh : ImportedMesh {
     to.vertices = from.vertices.data(), to.vertex_count = from.vertices.size() / ImportedModel::kFloats;
     to.corners = from.corners.data(), to.corner_count = from.corners.size();
     to.parts = from.parts.data(), to.part_count = from.parts.size();
-    to.materials = from.materials.data(), to.material_count = from.materials.size();
+    to.materials = from.materials.data();
     to.textures = from.textures.data(), to.texture_count = from.textures.size();
-    to.text = from.text.data(), to.text_size = from.text.size();
+    to.text = from.text.data();
     to.missing_library = from.missing_library.empty() ? nullptr : from.missing_library.c_str();
   }
   RawMesh raw;

@@ -11,16 +11,13 @@
 #include <new>
 
 #include "framework/geometry/mesh_import_plugin/equal_vertices.h"
+#include "framework/geometry/srgb.h"
 
 namespace presa {
 namespace {
 
 constexpr std::size_t kFloats = ImportedModel::kFloats;
 using Numbers = std::array<float, kFloats>;
-
-float linear(float display) {
-  return display <= 0.04045F ? display / 12.92F : std::pow((display + 0.055F) / 1.055F, 2.4F);
-}
 
 /// One of the file's textures by the name that a material uses; each is kept once.
 class Textures {
@@ -128,10 +125,12 @@ class ModelReader {
       colored = colored || mesh.HasVertexColors(0) || (mesh.mMaterialIndex < count && speaks_[mesh.mMaterialIndex]);
     }
     if (colored && scene_.mRootNode != nullptr) place(*scene_.mRootNode, aiMatrix4x4());
-    if (!places_.empty())
-      append();
-    else
+    if (places_.empty()) {
       out_ = {};
+      return;
+    }
+    append();
+    dropUnusedTextures();
   }
 
  private:
@@ -164,6 +163,25 @@ class ModelReader {
       part.vertex_count = static_cast<std::uint32_t>(out_.vertices.size() / kFloats) - part.first_vertex;
       part.corner_count = static_cast<std::uint32_t>(out_.corners.size()) - part.first_corner;
     }
+  }
+
+  /// Textures of materials that no part has are not looked for.
+  void dropUnusedTextures() {
+    std::vector<std::int32_t> number(out_.textures.size(), -1);
+    std::vector<ImportedTexture> used;
+    for (const ImportedPart& part : out_.parts) {
+      ImportedMaterial& material = out_.materials[part.material];
+      for (std::int32_t* const map : {&material.color_map, &material.normal_map, &material.roughness_map}) {
+        if (*map < 0) continue;
+        std::int32_t& kept = number[static_cast<std::size_t>(*map)];
+        if (kept < 0) {
+          kept = static_cast<std::int32_t>(used.size());
+          used.push_back(out_.textures[static_cast<std::size_t>(*map)]);
+        }
+        *map = kept;
+      }
+    }
+    out_.textures = std::move(used);
   }
 
   void append(const aiMesh& mesh, const Placement& placement) {
@@ -207,7 +225,7 @@ class ModelReader {
     const std::array<float, 3> color{c.r, c.g, c.b};
     for (std::size_t i = 0; i < 3; ++i) {
       const float bounded = std::isfinite(color[i]) ? std::clamp(color[i], 0.0F, 1.0F) : 1.0F;
-      all[8 + i] = display ? linear(bounded) : bounded;
+      all[8 + i] = display ? static_cast<float>(srgb::toLinear(bounded)) : bounded;
     }
     for (float& number : all) number = std::isfinite(number) ? number : 0.0F;
     return all;

@@ -55,7 +55,7 @@ osg::ref_ptr<osg::Image> decodeTexture(const Model& model, const ModelTexture& t
     refuseTexture(model, texture, std::string("cannot be decoded: OSG has no reader for ") + ending);
   std::istringstream stream(bytes);
   const osg::ref_ptr<osg::Image> image = reader->readImage(stream).takeImage();
-  if (!image || image->data() == nullptr || image->s() < 1 || image->t() < 1)
+  if (!image || image->data() == nullptr || image->s() != texture.width || image->t() != texture.height)
     refuseTexture(model, texture, "is damaged and cannot be decoded");
   const bool plain = image->getPixelFormat() == GL_RGB && image->getDataType() == GL_UNSIGNED_BYTE;
   return plain ? image : asRgb(*image);

@@ -1,18 +1,19 @@
 #include "modules/view_osg/models/model_node.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <mutex>
 #include <numbers>
 #include <osg/Geometry>
 #include <osg/LOD>
-#include <osg/Texture2D>
 #include <osg/observer_ptr>
 
+#include "framework/geometry/srgb.h"
 #include "modules/view_osg/models/model_images.h"
 #include "modules/view_osg/models/model_levels.h"
 #include "modules/view_osg/models/model_surface.h"
+#include "modules/view_osg/models/model_textures.h"
 #include "modules/view_osg/shaders.h"
 
 namespace presa::view {
@@ -24,11 +25,7 @@ constexpr double kQuickError = 0.0002;                               // finer le
 constexpr unsigned kColorUnit = 4, kNormalUnit = 5, kRoughUnit = 6;  // lighting and grain have 0 to 3
 constexpr double kDarkest = 0.02;                                    // of a mean by which a map is divided
 
-double toLinear(double display) {
-  return display <= 0.04045 ? display / 12.92 : std::pow((display + 0.055) / 1.055, 2.4);
-}
-
-/// The arrays of a model, its levels and its decoded textures, kept while a node has them as its user data.
+/// The arrays of a model, its levels and its states, kept while a node has them as its user data.
 class ModelShapes : public osg::Referenced {
  public:
   explicit ModelShapes(std::shared_ptr<const Model> model) : model_(std::move(model)) {
@@ -41,7 +38,7 @@ class ModelShapes : public osg::Referenced {
   osg::ref_ptr<osg::LOD> node(bool quick);
 
  private:
-  using Map = osg::ref_ptr<osg::Texture2D>;
+  using States = std::vector<osg::ref_ptr<osg::StateSet>>;  // by part
 
   struct Level {
     std::vector<osg::ref_ptr<osg::Geometry>> geometries;  // by part; null: none of its triangles is left
@@ -50,11 +47,8 @@ class ModelShapes : public osg::Referenced {
 
   void fillArrays(const ModelSurface& surface);
   void addLevel(const ModelLevel& level);
-  osg::ref_ptr<osg::StateSet> stateOf(const ModelMaterial& material, bool quick);
-  osg::Image& image(int texture);
-  Map color(int texture, bool quick);
-  Map normals(int texture);
-  Map plain(osg::Image& of, GLint format, bool quick);
+  const States& states(bool quick);
+  osg::ref_ptr<osg::StateSet> stateOf(const ModelMaterial& material, bool quick) const;
 
   const std::shared_ptr<const Model> model_;
   std::vector<Model::Part> parts_;
@@ -62,7 +56,7 @@ class ModelShapes : public osg::Referenced {
   osg::ref_ptr<osg::Vec4Array> colors_ = new osg::Vec4Array, tangents_;
   osg::ref_ptr<osg::Vec2Array> at_;
   std::vector<Level> levels_;
-  std::map<int, osg::ref_ptr<osg::Image>> images_, relief_;  // by texture
+  std::array<States, 2> states_;  // fine and quick
 };
 
 void ModelShapes::fillArrays(const ModelSurface& surface) {
@@ -105,64 +99,43 @@ void ModelShapes::addLevel(const ModelLevel& level) {
   levels_.push_back(std::move(made));
 }
 
-osg::Image& ModelShapes::image(int texture) {
-  osg::ref_ptr<osg::Image>& known = images_[texture];
-  if (!known) known = decodeTexture(*model_, model_->textures[static_cast<std::size_t>(texture)]);
-  return *known;
+const ModelShapes::States& ModelShapes::states(bool quick) {
+  States& states = states_[quick ? 1 : 0];
+  if (states.empty())
+    for (const Model::Part& part : parts_) states.push_back(stateOf(part.material, quick));
+  return states;
 }
 
-ModelShapes::Map ModelShapes::plain(osg::Image& of, GLint format, bool quick) {
-  Map texture = new osg::Texture2D(&of);
-  texture->setResizeNonPowerOfTwoHint(false);
-  texture->setInternalFormat(format);
-  texture->setFilter(osg::Texture::MIN_FILTER,
-                     quick ? osg::Texture::LINEAR_MIPMAP_NEAREST : osg::Texture::LINEAR_MIPMAP_LINEAR);
-  texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
-  for (const auto axis : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(axis, osg::Texture::REPEAT);
-  return texture;
-}
-
-ModelShapes::Map ModelShapes::color(int texture, bool quick) {
-  return plain(image(texture), quick ? GL_RGB8 : GL_SRGB8, quick);
-}
-
-/// A grey map has heights.
-ModelShapes::Map ModelShapes::normals(int texture) {
-  osg::ref_ptr<osg::Image>& relief = relief_[texture];
-  if (!relief) relief = isGrey(image(texture)) ? normalsOf(image(texture)) : osg::ref_ptr<osg::Image>(&image(texture));
-  return plain(*relief, GL_RGB8, false);
-}
-
-osg::ref_ptr<osg::StateSet> ModelShapes::stateOf(const ModelMaterial& material, bool quick) {
+osg::ref_ptr<osg::StateSet> ModelShapes::stateOf(const ModelMaterial& material, bool quick) const {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
   const shaders::Maps maps{.color = material.color_map >= 0,
                            .normal = material.normal_map >= 0,
                            .roughness = material.roughness_map >= 0 && !quick};
   state->setAttributeAndModes(shaders::model(maps, quick));
-  const auto map = [&](const char* name, unsigned unit, const Map& texture) {
-    state->setTextureAttribute(unit, texture, osg::StateAttribute::ON);
+  const auto map = [&](const char* name, unsigned unit, int texture, TextureUse use) {
+    state->setTextureAttribute(unit, textureOf(*model_, texture, use), osg::StateAttribute::ON);
     state->addUniform(new osg::Uniform(name, static_cast<int>(unit)));
   };
-  if (maps.color) map("color_map", kColorUnit, color(material.color_map, quick));
-  if (maps.normal) map("normal_map", kNormalUnit, normals(material.normal_map));
-  if (maps.roughness) map("rough_map", kRoughUnit, plain(image(material.roughness_map), GL_RGB8, false));
+  if (maps.color)
+    map("color_map", kColorUnit, material.color_map, quick ? TextureUse::kQuickColor : TextureUse::kColor);
+  if (maps.normal) map("normal_map", kNormalUnit, material.normal_map, TextureUse::kNormal);
+  if (maps.roughness) map("rough_map", kRoughUnit, material.roughness_map, TextureUse::kRoughness);
   state->addUniform(new osg::Uniform("relief", static_cast<float>(material.relief)));
   state->addUniform(new osg::Uniform("roughness", static_cast<float>(material.roughness)));
   state->addUniform(new osg::Uniform("metallic", static_cast<float>(material.metallic)));
   if (quick && maps.color) {
-    const Vec3 mean = meanOf(image(material.color_map)).cwiseMax(kDarkest);
+    const Vec3 mean = meanOf(*imageOf(*model_, material.color_map)).cwiseMax(kDarkest);
     const auto put = [&](const char* name, auto of) {
       state->addUniform(new osg::Uniform(name, osg::Vec3(osg::Vec3d(of(mean.x()), of(mean.y()), of(mean.z())))));
     };
-    put("map_mean", [](double display) { return toLinear(display); });
+    put("map_mean", [](double display) { return srgb::toLinear(display); });
     put("map_gain", [](double display) { return 1 / display; });
   }
   return state;
 }
 
 osg::ref_ptr<osg::LOD> ModelShapes::node(bool quick) {
-  std::vector<osg::ref_ptr<osg::StateSet>> states;
-  for (const Model::Part& part : parts_) states.push_back(stateOf(part.material, quick));
+  const States& states = this->states(quick);
   osg::ref_ptr<osg::LOD> node = new osg::LOD;
   node->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
   const std::size_t finest = !quick ? 0
@@ -200,8 +173,8 @@ osg::ref_ptr<osg::Node> modelNode(const std::shared_ptr<const Model>& model, boo
   static std::map<const Model*, osg::observer_ptr<ModelShapes>> all;  // is never iterated in an order that shows
   const std::lock_guard lock(guard);
   std::erase_if(all, [](const auto& one) { return !one.second.valid(); });
-  osg::ref_ptr<ModelShapes> shapes = all[model.get()].get();
-  if (!shapes) {
+  osg::ref_ptr<ModelShapes> shapes;
+  if (!all[model.get()].lock(shapes)) {
     shapes = new ModelShapes(model);
     all[model.get()] = shapes;
   }

@@ -142,6 +142,45 @@ TEST_F(ModelFile, TellsWhichTextureIsMissingOrHostile) {
   expectError(690, "is a named pipe");
 }
 
+TEST_F(ModelFile, TexturesThatNoPartHasAreNotLookedFor) {
+  written(folder_ / "c.png", test::png({10, 20, 30}));
+  const DrawnMesh drawn = loadObj("map_Kd c.png\n\nnewmtl unused\nmap_Kd gone.png\n");
+  ASSERT_TRUE(drawn.model) << found_.text();
+  ASSERT_EQ(drawn.model->textures.size(), 1u);
+  EXPECT_EQ(drawn.model->textures[0].name, "c.png");
+  EXPECT_EQ(drawn.model->parts.at(0).material.color_map, 0);
+}
+
+// A body that is felt and drawn by one file, whose triangles face inwards.
+TEST_F(ModelFile, AModelIsTurnedWithItsMesh) {
+  for (const char* normal : {"-1", "1"}) {  // as the triangles, and as the surface
+    const auto corner = [&](const char* at, int x, int y, int z) {
+      const auto n = [&](int side) { return std::to_string(side * std::atoi(normal)) + " "; };
+      return std::string(at) + " " + n(x) + n(y) + n(z) + "255 0 0\n";
+    };
+    written(folder_ / "t.ply",
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float nx\nproperty float ny\nproperty float nz\n"
+            "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 4\n"
+            "property list uchar int vertex_indices\nend_header\n" +
+                corner("0 0 0", -1, -1, -1) + corner("1 0 0", 1, 0, 0) + corner("0 1 0", 0, 1, 0) +
+                corner("0 0 1", 0, 0, 1) + "3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n");
+    found_ = {};
+    const DrawnMesh drawn = importDrawn((folder_ / "t.ply").string(), {.must_be_closed = true}, {}, found_);
+    ASSERT_TRUE(drawn.model) << found_.text();
+    EXPECT_EQ(found_.all().at(0).code, 311);
+    const Model& model = *drawn.model;
+    for (std::size_t c = 0; c < model.corners.size(); c += 3) {
+      const auto at = [&](std::size_t i) {
+        return Eigen::Map<const Eigen::Vector3f>(model.vertices[model.corners[c + i]].position.data());
+      };
+      const Eigen::Vector3f outwards = (at(0) + at(1) + at(2)) / 3 - Eigen::Vector3f::Constant(0.2F);
+      EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).dot(outwards), 0);
+    }
+    EXPECT_GT(model.vertices[1].normal[0], 0);
+  }
+}
+
 TEST_F(ModelFile, AllTexturesTogetherHaveALimit) {
   std::string lines;
   std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\n";
@@ -184,6 +223,8 @@ TEST(ImageSize, ReadsHeadsAndNothingElse) {
   EXPECT_EQ(photo->width, 500u);
   EXPECT_EQ(photo->height, 300u);
   for (std::size_t cut = 0; cut < 17; ++cut) EXPECT_FALSE(imageSize(jpeg.substr(0, cut))) << cut;
+  for (const char marker : {'\x01', '\xd0', '\xd9', '\xda'})  // before the frame, as if they had a length
+    EXPECT_FALSE(imageSize(std::string("\xff\xd8\xff") + marker + std::string("\0\2", 2) + jpeg.substr(2)));
   EXPECT_FALSE(imageSize(test::pngHead(0, 480)));
   EXPECT_FALSE(imageSize(std::string("\xff\xd8\xff\xe0\0\0zzzzzzzz", 14)));  // a segment shorter than its length
 }

@@ -9,6 +9,7 @@
 #include "framework/geometry/model.h"
 #include "modules/view_osg/models/model_levels.h"
 #include "modules/view_osg/models/model_node.h"
+#include "modules/view_osg/models/model_textures.h"
 #include "tests/modules/view_osg/png_picture.h"
 #include "tests/support/made_model.h"
 
@@ -245,6 +246,23 @@ TEST_F(Models, LevelsChangeWhereTheirErrorIsHalfAPixel) {
     EXPECT_NEAR(levels[i + 1].error / diameter * pixels, 0.5, 1e-4);
     EXPECT_EQ(lod->getMaxRange(i + 1), lod->getMinRange(i));
   }
+}
+
+TEST_F(Models, OnePictureServesAllScalesOfAFile) {
+  written(folder_ / "c.png", test::png({10, 20, 30}));
+  const std::string name = obj("map_Kd c.png\n", folder_);
+  Diagnostics found;
+  const auto scaled = [&](double by) {
+    ImportOptions options;
+    options.must_be_closed = false, options.display_only = true, options.scale = Vec3::Constant(by);
+    return importDrawn((folder_ / name).string(), options, {}, found).model;
+  };
+  const auto small = scaled(1), large = scaled(3);
+  ASSERT_TRUE(small && large) << found.text();
+  const osg::ref_ptr<osg::Texture2D> texture = textureOf(*small, 0, TextureUse::kColor);
+  EXPECT_EQ(texture, textureOf(*large, 0, TextureUse::kColor));
+  EXPECT_EQ(texture->getImage(), imageOf(*large, 0).get());
+  EXPECT_EQ(texture->getImage(), textureOf(*small, 0, TextureUse::kQuickColor)->getImage());
 }
 
 TEST_F(Models, ADamagedPictureIsAnError) {
