@@ -51,6 +51,24 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     --screenshot "$out/scenes/$name.png" "${args[@]}"
 }
 
+# The four walls of config/cave unfolded: each drawn by a process of its own, all at the same frame.
+cave() {  # PROGRAMS OUT
+  local presa=$1/presa wall processes=()
+  local join=(view --join --bus loopback --domain 177 --walls "$config/cave/cave.xml" --quiet)
+  "$presa" run "$config/scenes/cube.xml" --realtime --bus loopback --domain 177 --view none --for 30 --quiet &
+  processes+=($!)
+  for wall in front left right floor; do
+    "$presa" "${join[@]}" --wall "$wall" --view offscreen --for 17 --screenshot "$scratch/$wall.png" --screenshot-at 15 >/dev/null &
+    processes+=($!)
+  done
+  "$presa" "${join[@]}" --head "$config/cave/head.xml" --for 20 >/dev/null &
+  wait $! "${processes[@]:1}"
+  kill -INT "${processes[0]}" || true
+  wait "${processes[0]}" || true # 130
+  ffmpeg -v error -y -i "$scratch/left.png" -i "$scratch/front.png" -i "$scratch/right.png" -i "$scratch/floor.png" -filter_complex \
+    '[0][1][2]hstack=inputs=3[row];[3]pad=1920:480:640:0:white[below];[row][below]vstack,scale=1280:640' -frames:v 1 "$2/cave.png"
+}
+
 # The top of each scene's report, at a quarter of its size. Frames, so that each page has its own styles.
 scene_pages() {  # PROGRAMS OUT
   local file name pages=$scratch/scene_pages.html
@@ -75,6 +93,7 @@ draw() {  # PROGRAMS OUT NAME
       "$presa" run "$config/scenes/percro_2006.xml" --lockstep --quiet --hud minimal --picture-size 1280x560 \
         --camera "-0.5,-2.2,0.75:0,0,0.04" --screenshot "$2/$3.png"
       ;;
+    cave) cave "$1" "$2" ;;
     temple_column)
       # status 1: the capital is not in its place yet
       "$presa" temple --auto --lockstep --seed 7 --for 59.9 --screenshot "$2/$3.png" >"$scratch/log" 2>&1 ||
