@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "framework/geometry/closest_point.h"
 #include "framework/geometry/surface_tree.h"
@@ -10,7 +11,7 @@
 namespace presa {
 namespace {
 
-constexpr std::size_t kAskEvery = 4096;  // triangles
+constexpr std::size_t kAskEvery = 4096;  // looks
 
 using Corners = std::array<Vec3, 3>;
 
@@ -31,12 +32,28 @@ double reachOf(const Corners& corners, const Vec3& middle) {
 template <class BoundOf>
 class Search {
  public:
-  Search(const BoundOf& bound_of, double tolerance) : bound_of_(bound_of), tolerance_(tolerance) {}
+  Search(const BoundOf& bound_of, const DistanceWanted& wanted, const GoOn& go_on)
+      : bound_of_(bound_of), wanted_(wanted), go_on_(go_on) {}
+
+  void raise(double low) { low_ = std::max(low_, low); }
+
+  SurfaceDistance over(const TriMesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size() && !ends(); ++t) {
+      share_ = static_cast<double>(t) / static_cast<double>(mesh.triangles.size());
+      look(cornersOf(mesh, t));
+    }
+    return {low_, ends() ? std::numeric_limits<double>::infinity() : std::max(low_, high_)};
+  }
+
+ private:
+  bool ends() const { return stopped_ || low_ > wanted_.give_up; }
 
   /// Takes a triangle into the bounds, and halves it as often as that takes.
   void look(const Corners& corners) {
+    if (go_on_ && looks_++ % kAskEvery == 0) stopped_ = stopped_ || !go_on_(share_);
+    if (ends()) return;
     const double bound = bound_of_(corners, low_);
-    if (bound <= low_ + tolerance_) {
+    if (bound <= std::max(low_ + wanted_.tolerance, wanted_.floor)) {
       high_ = std::max(high_, bound);
       return;
     }
@@ -52,20 +69,18 @@ class Search {
     look({middle, b, c});
   }
 
-  double low() const { return low_; }
-  void raise(double low) { low_ = std::max(low_, low); }
-  SurfaceDistance bounds() const { return {low_, std::max(low_, high_)}; }
-
- private:
   const BoundOf& bound_of_;
-  const double tolerance_;
-  double low_ = 0, high_ = 0;
+  const DistanceWanted& wanted_;
+  const GoOn& go_on_;
+  double low_ = 0, high_ = 0, share_ = 0;
+  std::size_t looks_ = 0;
+  bool stopped_ = false;
 };
 
 }  // namespace
 
-SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, double tolerance, const GoOn& go_on,
-                                double give_up) {
+SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, const DistanceWanted& wanted,
+                                const GoOn& go_on) {
   const SurfaceTree tree(to);
   const auto bound_of = [&](const Corners& corners, double& low) {
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
@@ -77,30 +92,24 @@ SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, double t
     for (const Vec3& corner : corners) convex = std::max(convex, (corner - closestOnTriangle(corner, prepared)).norm());
     return std::min(here + reachOf(corners, middle), convex);
   };
-  Search search(bound_of, tolerance);
+  Search search(bound_of, wanted, go_on);
   for (const Vec3& vertex : from.vertices)  // most of what the bounds are compared with
     search.raise(std::sqrt(tree.squaredDistance(vertex, 1e300)));
-  for (std::size_t t = 0; t < from.triangles.size() && search.low() <= give_up; ++t) {
-    search.look(cornersOf(from, t));
-    const double share = static_cast<double>(t) / static_cast<double>(from.triangles.size());
-    if (go_on && t % kAskEvery == 0 && !go_on(share)) give_up = -1;
-  }
-  if (search.low() <= give_up) return search.bounds();
-  return {search.low(), std::numeric_limits<double>::infinity()};
+  return search.over(from);
 }
 
 SurfaceDistance largestDistance(const TriMesh& from, const std::function<double(const Vec3&)>& distance,
-                                double tolerance) {
+                                double tolerance, const GoOn& go_on) {
   const auto bound_of = [&](const Corners& corners, double& low) {
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     const double here = distance(middle);
     low = std::max(low, here);
     return here + reachOf(corners, middle);
   };
-  Search search(bound_of, tolerance);
+  const DistanceWanted wanted{.tolerance = tolerance};
+  Search search(bound_of, wanted, go_on);
   for (const Vec3& vertex : from.vertices) search.raise(distance(vertex));
-  for (std::size_t t = 0; t < from.triangles.size(); ++t) search.look(cornersOf(from, t));
-  return search.bounds();
+  return search.over(from);
 }
 
 }  // namespace presa

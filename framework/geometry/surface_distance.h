@@ -15,15 +15,22 @@ struct SurfaceDistance {
 /// Called now and then with the share that is done, 0 to 1; false stops.
 using GoOn = std::function<bool(double)>;
 
-/// One-sided Hausdorff distance: the max, over all points of `from`, of the distance to `to`. Both bounds are proven; they
-/// differ by at most `tolerance` [m]. Triangles of `from` are halved until their bound is below what was found: the
+/// How exactly a distance is to be known [m].
+struct DistanceWanted {
+  double tolerance = 0;  ///< difference of the two bounds
+  double floor = 0;  ///< what is below it may have this as its upper bound: surfaces that coincide take long otherwise
+  double give_up =
+      std::numeric_limits<double>::infinity();  ///< a larger one ends the search: the upper bound is infinite
+};
+
+/// One-sided Hausdorff distance: the max, over all points of `from`, of the distance to `to`. Both bounds are proven. Triangles of `from` are halved until their bound is below what was found: the
 /// distance from one triangle of `to` is a convex function, largest at a corner, and no distance grows faster than the way
-/// along `from`. Ends with the upper bound infinity where `low` exceeds `give_up` [m]. Thread: any, not the haptic group.
-SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, double tolerance, const GoOn& go_on = {},
-                                double give_up = std::numeric_limits<double>::infinity());
+/// along `from`. Thread: any, not the haptic group.
+SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, const DistanceWanted& wanted,
+                                const GoOn& go_on = {});
 
 /// The same for any distance from a set, of which only the second property is used.
 SurfaceDistance largestDistance(const TriMesh& from, const std::function<double(const Vec3&)>& distance,
-                                double tolerance);
+                                double tolerance, const GoOn& go_on = {});
 
 }  // namespace presa

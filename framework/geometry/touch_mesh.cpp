@@ -12,7 +12,8 @@
 namespace presa {
 namespace {
 
-constexpr double kKnownTo = 0.02;    // difference of the two bounds of a distance, relative to what is allowed
+// Bounds of a distance, relative to what is allowed: while the search asks only whether it is allowed, and at the end.
+constexpr double kKnownTo = 0.02, kSearchFloor = 0.5, kFloor = 0.1;
 constexpr double kNearEnough = 1.1;  // of the numbers of triangles between which the search ends
 constexpr std::size_t kFewest = 8, kSteps = 10;
 constexpr std::size_t kCutTriangles = 4000;  // of the mesh that is cut into pieces
@@ -61,9 +62,11 @@ double distanceFrom(const SurfaceTree& tree, const Vec3& p) {
   return tree.isInside(p) ? 0 : std::sqrt(tree.squaredDistance(p, 1e300));
 }
 
-/// Distances of the surface from the pieces, and of the pieces from the solid in the surface.
-void measure(const TriMesh& mesh, TouchPieces& made) {
+/// Distances of the surface from the pieces, and of the pieces from the solid in the surface; false: told to stop.
+bool measure(const TriMesh& mesh, TouchPieces& made, const GoOn& go_on) {
   const double known_to = kSolidKnownTo * sizeOfMesh(mesh);
+  bool stopped = false;
+  const GoOn told = [&](double) { return !(stopped = stopped || (go_on && !go_on(0.5))); };
   std::vector<SurfaceTree> trees(made.pieces.begin(), made.pieces.end());
   made.forth = largestDistance(
       mesh,
@@ -72,22 +75,29 @@ void measure(const TriMesh& mesh, TouchPieces& made) {
         for (const SurfaceTree& tree : trees) nearest = std::min(nearest, distanceFrom(tree, p));
         return nearest;
       },
-      known_to);
+      known_to, told);
   const SurfaceTree whole(mesh);
   for (const TriMesh& piece : made.pieces) {
     const auto found = largestDistance(
-        piece, [&](const Vec3& p) { return distanceFrom(whole, p); }, known_to);
+        piece, [&](const Vec3& p) { return distanceFrom(whole, p); }, known_to, told);
     made.back = {std::max(made.back.low, found.low), std::max(made.back.high, found.high)};
   }
+  return !stopped;
 }
 
 }  // namespace
 
 double TouchMesh::distance() const { return std::max(forth.high, back.high); }
 
+void measureTouchMesh(TouchMesh& made, const TriMesh& mesh, double max_error, const GoOn& go_on) {
+  const DistanceWanted known{.tolerance = kKnownTo * max_error, .floor = kFloor * max_error};
+  made.back = surfaceDistance(made.mesh, mesh, known, go_on);
+  made.forth = surfaceDistance(mesh, made.mesh, known, go_on);
+}
+
 TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on) {
   const MeshReport original = checkMesh(mesh);
-  const double known_to = kKnownTo * max_error;
+  const DistanceWanted searched{kKnownTo * max_error, kSearchFloor * max_error, max_error};
   TouchMesh best{mesh, {}, {}};
   // the distance falls as the triangles grow in number: the search halves the interval of their logarithm
   double few = static_cast<double>(kFewest), enough = static_cast<double>(mesh.triangles.size());
@@ -103,13 +113,16 @@ TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on) {
     const double wanted = std::sqrt(few * enough);
     TouchMesh made{decimateMesh(mesh, static_cast<std::size_t>(wanted)), {}, {}};
     bool good = isAsWhole(made.mesh, original);
-    if (good) made.back = surfaceDistance(made.mesh, mesh, known_to, told(0), max_error);
+    if (good) made.back = surfaceDistance(made.mesh, mesh, searched, told(0));
     good = good && made.back.high <= max_error;
-    if (good) made.forth = surfaceDistance(mesh, made.mesh, known_to, told(0.5), max_error);
+    if (good) made.forth = surfaceDistance(mesh, made.mesh, searched, told(0.5));
     good = good && made.forth.high <= max_error && made.mesh.triangles.size() < best.mesh.triangles.size();
     if (good) best = std::move(made);
     (good ? enough : few) = wanted;
   }
+  const GoOn last = [&](double) { return !(stopped = stopped || (go_on && !go_on(1))); };
+  if (best.mesh.triangles.size() < mesh.triangles.size())  // else both distances are zero
+    measureTouchMesh(best, mesh, max_error, last);
   if (stopped) return {};
   buildAdjacency(best.mesh);
   return best;
@@ -121,8 +134,7 @@ TouchPieces touchPieces(const TriMesh& mesh, std::size_t max_pieces, double max_
   TouchPieces made{decompose(coarse, max_pieces, max_error), {}, {}};
   for (TriMesh& piece : made.pieces) piece = asInFile(piece);
   if (go_on && !go_on(0.5)) return {};
-  measure(mesh, made);
-  if (go_on && !go_on(1)) return {};
+  if (!measure(mesh, made, go_on) || (go_on && !go_on(1))) return {};
   return made;
 }
 

@@ -19,6 +19,8 @@ struct TouchMesh {
 /// The fewest triangles, to a tenth, whose Hausdorff distance from `mesh` is up to `max_error` [m]; as closed as `mesh`. The
 /// mesh itself if none has fewer.
 TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on = {});
+/// The distances of `made.mesh`, between bounds that differ by up to a tenth of `max_error`.
+void measureTouchMesh(TouchMesh& made, const TriMesh& mesh, double max_error, const GoOn& go_on = {});
 
 /// Convex pieces of a closed mesh, as solids.
 struct TouchPieces {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kVersion = 1;  // of touchMesh
+constexpr std::uint64_t kVersion = 2;  // of touchMesh
 
 std::string fileFor(const TriMesh& mesh, double max_error) {
   const std::string folder = input::cacheFolder("felt");
@@ -38,12 +38,11 @@ FeltMesh readKept(const std::string& file, const TriMesh& mesh, double max_error
   std::error_code missing;
   if (file.empty() || !fs::exists(file, missing)) return {};
   Diagnostics ignored;
-  FeltMesh kept{importMesh(file, {}, {}, ignored), 0};
+  TouchMesh kept{importMesh(file, {}, {}, ignored), {}, {}};
   if (ignored.hasErrors() || kept.mesh.triangles.empty()) return {};
-  constexpr double kKnownTo = 0.02;
-  kept.distance = std::max(surfaceDistance(kept.mesh, mesh, kKnownTo * max_error).high,
-                           surfaceDistance(mesh, kept.mesh, kKnownTo * max_error).high);
-  return kept.distance <= max_error * (1 + kKnownTo) ? kept : FeltMesh{};
+  measureTouchMesh(kept, mesh, max_error);
+  constexpr double kInFile = 1.01;  // a file rounds
+  return kept.distance() <= kInFile * max_error ? FeltMesh{kept.mesh, kept.distance()} : FeltMesh{};
 }
 
 }  // namespace
@@ -58,10 +57,10 @@ FeltMesh feltMesh(const TriMesh& mesh, double max_error) {
       fs::create_directories(fs::path(file).parent_path());
       writeFileAtomically(file, objText(made.mesh));
     }
-  } catch (const std::system_error&) {
-    return {made.mesh, made.distance()};  // without a cache
+    felt = readKept(file, mesh, max_error);  // the first start feels what later ones do
+  } catch (const std::system_error&) {       // no cache
   }
-  return {made.mesh, made.distance()};
+  return felt.mesh.triangles.empty() ? FeltMesh{made.mesh, made.distance()} : felt;
 }
 
 }  // namespace presa::temple

@@ -10,6 +10,7 @@
 #include "apps/presa/check/start_warnings.h"
 #include "framework/scene/load.h"
 #include "tests/apps/presa/support.h"
+#include "tests/support/made_model.h"
 
 namespace presa {
 namespace {
@@ -25,7 +26,7 @@ std::shared_ptr<const World> worldOf(const std::string& bodies) {
     <materials><material name="m" stiffness="500"/></materials>)" +
                           bodies + "</scene>";
   Diagnostics diagnostics;
-  const Loaded loaded = loadWorldFromText({.scene_xml = xml, .name = "s.xml"}, {}, diagnostics);
+  const Loaded loaded = loadWorldFromText({.scene_xml = xml, .name = "s.xml", .rig_xml = {}}, {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   return loaded.world;
 }
@@ -141,6 +142,28 @@ TEST(Check, WarnsOfMeshesThatDoNotKeepThePeriod) {
 }
 
 // The kind of a file is that of its root element; rigs, motions and experiments are checked alone, with their own lines.
+// All at once, each at the line that names the model.
+TEST(Check, FindsTexturesThatAreMissingTooLargeOrOutside) {
+  std::string bodies;
+  for (const std::string name : {"gone", "wide", "out"}) {
+    test::written(scratch(name + ".mtl"),
+                  std::string("newmtl paint\nmap_Kd ") + (name == "out" ? "../" : "") + name + ".png\n");
+    test::written(scratch(name + ".obj"), test::objOf(test::frontSquare(0.1F), name + ".mtl"));
+    bodies +=
+        "<body name=\"" + name + "\" fixed=\"true\">\n<visual><mesh file=\"" + name + ".obj\"/></visual></body>\n";
+  }
+  test::written(scratch("wide.png"), test::pngHead(100'000, 100'000));
+  const std::string scene = scratch("textured.xml");
+  std::ofstream(scene) << "<scene version=\"1.0\" name=\"s\"><world gravity=\"0 0 0\"/>"
+                          "<materials><material name=\"m\" stiffness=\"500\"/></materials>\n"
+                       << bodies << "</scene>";
+  const test::Outcome found = presa("check " + scene);
+  EXPECT_EQ(found.status, 2);
+  for (const char* text :
+       {"textured.xml:3:1: error[E260]", "textured.xml:5:1: error[E262]", "textured.xml:7:1: error[E692]"})
+    EXPECT_NE(found.err.find(text), std::string::npos) << found.err;
+}
+
 TEST(Check, TakesRigsMotionsAndExperiments) {
   using check::FileKind;
   EXPECT_EQ(check::kindOf(source("config/rigs/pinch_cube.xml")), FileKind::kRig);

@@ -37,7 +37,7 @@ TEST(Proportions, ShippedOnesAreGood) {
 // A name of a building says its size and its plan, and goes back to them.
 TEST(Proportions, EachPlanHasItsBuildings) {
   for (const std::string& plan : shippedPlans()) {
-    for (const std::string& size : {"column", "facade"}) {
+    for (const char* const size : {"column", "facade"}) {
       const std::string name = buildingName(size, plan);
       EXPECT_EQ(sizeAndPlan(name), std::pair(std::string(size), plan));
       Diagnostics diagnostics;

@@ -142,6 +142,30 @@ TEST_F(ModelFile, TellsWhichTextureIsMissingOrHostile) {
   expectError(690, "is a named pipe");
 }
 
+// A glTF names its textures by URIs, and may hold them itself.
+TEST_F(ModelFile, TexturesOfGltfAreLookedAtAsThoseOfObj) {
+  const fs::path secret = folder_.parent_path() / "secret.png";
+  written(secret, test::png({1, 2, 3}));
+  fs::create_symlink(secret, folder_ / "link.png");
+  const auto loadUri = [&](const std::string& uri) {
+    test::writeGltf(folder_, "g", test::frontSquare(1), R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+                    {uri});
+    EXPECT_FALSE(load("g.gltf").model);
+  };
+  for (const std::string& uri : {std::string("../secret.png"), secret.string(), std::string("link.png")}) {
+    loadUri(uri);
+    expectError(692, "outside the folder");
+  }
+  loadUri("%2e%2e/secret.png");  // decoded it would lead out of the folder
+  ASSERT_TRUE(found_.hasErrors());
+  EXPECT_TRUE(found_.all()[0].code == 692 || found_.all()[0].code == 260) << found_.text();
+  loadUri("gone.png");
+  expectError(260, "missing");
+  // 100 000 by 100 000 pixels, inside the file
+  loadUri("data:image/png;base64,iVBORw0KGgoAAAANSUhEUgABhqAAAYagCAIAAAA=");
+  expectError(262, "100000 by 100000 pixels");
+}
+
 TEST_F(ModelFile, TexturesThatNoPartHasAreNotLookedFor) {
   written(folder_ / "c.png", test::png({10, 20, 30}));
   const DrawnMesh drawn = loadObj("map_Kd c.png\n\nnewmtl unused\nmap_Kd gone.png\n");

@@ -22,13 +22,13 @@ void expectDistance(const SurfaceDistance& found, double exact, double tolerance
 
 TEST(SurfaceDistance, IsThatOfBoxesOneWayAndTheOther) {
   const TriMesh box = makeBox({0.1, 0.1, 0.1}), tall = makeBox({0.1, 0.1, 0.3}), large = makeBox({0.12, 0.12, 0.12});
-  expectDistance(surfaceDistance(box, box, kKnown), 0);
-  expectDistance(surfaceDistance(large, box, kKnown), 0.01 * std::sqrt(3.0));  // corner to corner
-  expectDistance(surfaceDistance(box, large, kKnown), 0.01);                   // face to face
-  expectDistance(surfaceDistance(tall, box, kKnown), 0.1);
+  expectDistance(surfaceDistance(box, box, {kKnown}), 0);
+  expectDistance(surfaceDistance(large, box, {kKnown}), 0.01 * std::sqrt(3.0));  // corner to corner
+  expectDistance(surfaceDistance(box, large, {kKnown}), 0.01);                   // face to face
+  expectDistance(surfaceDistance(tall, box, {kKnown}), 0.1);
   // the middle of a square of the short box's ends is 50 mm from the sides of the tall one: no sample of the corners,
   // midpoints and centres of its triangles is that far
-  expectDistance(surfaceDistance(box, tall, kKnown), 0.05);
+  expectDistance(surfaceDistance(box, tall, {kKnown}), 0.05);
 }
 
 // The finest sphere stands in for the true one; it is inside by its own sagitta, which is the tolerance.
@@ -44,13 +44,13 @@ TEST(SurfaceDistance, OfAPolyhedronInASphereIsItsSagitta) {
     }
     return largest;
   };
-  expectDistance(surfaceDistance(fine, coarse, kKnown), sagitta(coarse), sagitta(fine));
+  expectDistance(surfaceDistance(fine, coarse, {kKnown}), sagitta(coarse), sagitta(fine));
   EXPECT_GT(sagitta(coarse), 20 * sagitta(fine));
 }
 
 TEST(SurfaceDistance, StopsWhenToldTo) {
   const TriMesh sphere = makeSphere(0.05);
-  EXPECT_TRUE(std::isinf(surfaceDistance(sphere, sphere, kKnown, [](double) { return false; }).high));
+  EXPECT_TRUE(std::isinf(surfaceDistance(sphere, sphere, {kKnown}, [](double) { return false; }).high));
 }
 
 TEST(TouchMesh, KeepsTheDistanceThatIsAllowed) {
