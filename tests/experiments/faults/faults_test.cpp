@@ -2,6 +2,7 @@
 
 #include "experiments/faults/fault.h"
 #include "framework/session/realtime_rights.h"
+#include "tests/support/effort.h"
 
 namespace presa::faults {
 namespace {
@@ -20,7 +21,7 @@ class Faults : public testing::TestWithParam<std::size_t> {};
 TEST_P(Faults, KeepTheirBounds) {
   const Fault fault = tested(allFaults()[GetParam()]);
   if (fault.real_time && !realtimeRights().fifo.empty()) GTEST_SKIP() << "SCHED_FIFO: " << realtimeRights().fifo;
-  for (std::uint64_t run = 0; run < 6; ++run) {
+  for (std::uint64_t run = 0; run < unlessSanitized<std::uint64_t>(6, 2); ++run) {
     RandomStream random(1000, fault.name, run);
     const Outcome outcome = fault.run(random);
     EXPECT_EQ(brokenBy(fault, outcome), "")
