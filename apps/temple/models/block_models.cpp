@@ -40,9 +40,11 @@ std::string fileOf(const std::string& folder, BlockKind kind) {
 
 Vec3 factors(const AxisBox& from, const AxisBox& to) { return (to.high - to.low).cwiseQuotient(from.high - from.low); }
 
-std::string text(const Vec3& v) {
+/// The model's unit is unknown: only proportions can be compared.
+std::string relative(const AxisBox& box) {
+  const Vec3 size = box.high - box.low;
   std::array<char, 64> line{};
-  std::snprintf(line.data(), line.size(), "%.3g x %.3g x %.3g", v.x(), v.y(), v.z());
+  std::snprintf(line.data(), line.size(), "%.3g x %.3g x 1", size.x() / size.z(), size.y() / size.z());
   return line.data();
 }
 
@@ -52,8 +54,8 @@ bool fits(const KindModel& model, const Block& block, Diagnostics& diagnostics) 
   const Vec3 scale = factors(model.box, box);
   if (scale.allFinite() && scale.maxCoeff() <= kMaxStretch * scale.minCoeff()) return true;
   diagnostics.error(kOtherProportions, {model.file, 0, 0},
-                    "the model is " + text(model.box.high - model.box.low) + " and block '" + block.name + "' " +
-                        text(1e3 * (box.high - box.low)) + " mm: it would be stretched beyond a factor of 1.5",
+                    "the model is " + relative(model.box) + " (x by y by z, in heights), block '" + block.name + "' " +
+                        relative(box) + ": it would be stretched beyond a factor of 1.5",
                     "turn or crop the model; z is up (glTF: y), x along the front");
   return false;
 }
