@@ -33,17 +33,19 @@ const xml::Schema& sceneSchema() {
   return schema;
 }
 
-Scene loadDocument(xml::Document& document, const std::string& directory, const std::vector<Override>& overrides,
-                   Diagnostics& diagnostics) {
+Scene loadDocument(xml::Document& document, bool from_file, const std::string& directory,
+                   const std::vector<Override>& overrides, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.errorCount();
   Scene scene;
   scene.file = document.name();
   if (document.root().name() == sceneSchema().root().name) {
+    expandIncludes(document, from_file, diagnostics);
     applyOverrides(document.root(), sceneSchema().root(), overrides, diagnostics);
   }
   document.validate(sceneSchema(), diagnostics);
   if (document.root().name() != sceneSchema().root().name) return scene;
   checkVersion(document.root(), "scene", kVersion, diagnostics);
+  removeIncludes(document.root());
   resolveFrictionPresets(document.root(), diagnostics);
   checkScene(document.root(), diagnostics);
   checkSceneBus(document.root(), diagnostics);
@@ -101,7 +103,7 @@ Scene loadScene(const std::string& file, const std::vector<Override>& overrides,
   Scene nothing;
   nothing.file = file;
   if (!document) return nothing;
-  return loadDocument(*document, std::filesystem::path(file).parent_path().string(), overrides, diagnostics);
+  return loadDocument(*document, true, std::filesystem::path(file).parent_path().string(), overrides, diagnostics);
 }
 
 Scene parseScene(const std::string& xml, const std::string& name, const std::string& directory,
@@ -110,7 +112,7 @@ Scene parseScene(const std::string& xml, const std::string& name, const std::str
   Scene nothing;
   nothing.file = name;
   if (!document) return nothing;
-  return loadDocument(*document, directory, overrides, diagnostics);
+  return loadDocument(*document, false, directory, overrides, diagnostics);
 }
 
 std::vector<std::string> filesNamedBy(const Scene& scene) {

@@ -26,6 +26,11 @@ inline std::optional<double> optionalNumber(const xml::Element& element, const s
 /// `path` relative to `directory`, made absolute and normalised; "" stays "".
 std::string resolvePath(const std::string& path, const std::string& directory);
 
+/// Copies what the files of <include> elements hold in front of these elements (E273 to E275). Files are read only on
+/// behalf of a document that was a file itself: `from_file`.
+void expandIncludes(xml::Document& document, bool from_file, Diagnostics& diagnostics);
+/// Takes the <include> elements themselves out, after they have been validated.
+void removeIncludes(const xml::Element& root);
 /// Writes each override into the document; an unknown path is error E202.
 void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, const std::vector<Override>& overrides,
                     Diagnostics& diagnostics);

@@ -56,6 +56,8 @@ void resolveWatchdogs(const Element& root, const std::vector<bool>& set) {
 void resolveFiles(const Element& scene, const std::string& directory) {
   Element root = scene;
   if (root.hasAttribute("rig")) root.setAttribute("rig", resolvePath(root.attribute("rig"), directory));
+  for (Element include : root.children("include"))
+    include.setAttribute("file", resolvePath(include.attribute("file"), directory));
   for (const Element& body : root.children("body")) {
     for (const char* role : {"visual", "haptic", "physics"}) {
       for (const Element& geometry : body.children(role)) resolveMesh(geometry, directory);

@@ -20,6 +20,7 @@ struct CheckArguments {
   std::vector<std::string> files;
   std::string rig, format = "text";
   std::vector<std::string> sets;
+  bool print_resolved = false;
 };
 
 /// What was found about one file.
@@ -27,6 +28,7 @@ struct Checked {
   nlohmann::json report;
   std::string good;                  ///< about a file without errors
   std::vector<std::string> details;  ///< further lines about it
+  std::string resolved;              ///< a scene without errors as it is read
 };
 
 constexpr double kMeasured = 0.1;  // simulated seconds in which the dynamics of meshes are measured
@@ -61,6 +63,7 @@ Checked checkScene(const std::string& file, const CheckArguments& arguments) {
     check::warnOfStart(loaded, diagnostics);
     check::warnOfSlowMeshes(std::move(loaded), kMeasured, diagnostics);
     checked.good = sizesOf(*world);
+    checked.resolved = world->scene.resolved_xml;
   }
   checked.report = findingsJson(file, "scene", diagnostics);
   nlohmann::json& decomposed = checked.report["decomposed"] = nlohmann::json::array();
@@ -70,6 +73,7 @@ Checked checkScene(const std::string& file, const CheckArguments& arguments) {
       checked.details.push_back(textOf(mesh));
     }
   }
+  if (arguments.print_resolved) checked.report["resolved"] = checked.resolved;
   printText(diagnostics, arguments);
   return checked;
 }
@@ -122,7 +126,8 @@ int checkAll(const CheckArguments& arguments) {
   for (const std::string& file : arguments.files) {
     const Checked checked = checkOne(file, arguments);
     good = good && checked.report.at("valid").get<bool>();
-    if (arguments.format == "text") printResult(file, checked);
+    if (arguments.format == "text" && arguments.print_resolved) std::fputs(checked.resolved.c_str(), stdout);
+    if (arguments.format == "text" && !arguments.print_resolved) printResult(file, checked);
     report.push_back(checked.report);
   }
   if (arguments.format == "json") std::printf("%s\n", report.dump(2).c_str());
@@ -139,6 +144,9 @@ void addCheck(Command app, int& status) {
   command.option("FILE", arguments->files, "files of scenes, rigs, motions, experiments or walls").required();
   command.option("--rig", arguments->rig, "rig file instead of the one that a scene or an experiment names");
   command.option("--set", arguments->sets, "PATH=VALUE, e.g. body/cube/physics/mass=0.1; may be repeated");
+  command.flag("--print-resolved", arguments->print_resolved,
+               "print scenes as they are read: what they include in its place, all defaults, absolute paths; nothing "
+               "of other files");
   command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});
   command.footer(
       "A rig and a motion are checked without a scene.\nExit status: 0 every file is good, 2 otherwise.\n"

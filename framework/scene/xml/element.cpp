@@ -133,4 +133,46 @@ Element Element::addChild(const std::string& name, const SourceLocation& origin)
   return {document_, child};
 }
 
+Element Element::copyOf(const Element& of) {
+  xmlNode* copy = xmlDocCopyNode(asNode(of.node_), document_->doc.get(), 1);
+  if (copy == nullptr) throw std::bad_alloc();
+  const auto note = [&](const auto& self, const xmlNode* from, const xmlNode* to) -> void {
+    document_->where[to] = of.document_->locate(from);
+    const auto text = of.document_->text_where.find(from);
+    if (text != of.document_->text_where.end()) document_->text_where[to] = text->second;
+    for (const xmlAttr *a = from->properties, *b = to->properties; a && b; a = a->next, b = b->next)
+      document_->where[b] = of.document_->locate(a);
+    const std::vector<xmlNode*> inner = childElements(from), copied = childElements(to);
+    for (std::size_t i = 0; i < inner.size(); ++i) self(self, inner[i], copied[i]);
+  };
+  note(note, asNode(of.node_), copy);
+  return {document_, copy};
+}
+
+Element Element::addCopy(const Element& of) {
+  const Element copy = copyOf(of);
+  xmlAddChild(asNode(node_), asNode(copy.node_));
+  return copy;
+}
+
+Element Element::insertCopy(const Element& of) {
+  const Element copy = copyOf(of);
+  xmlAddPrevSibling(asNode(node_), asNode(copy.node_));
+  return copy;
+}
+
+void Element::remove() {
+  const auto forget = [&](const auto& self, xmlNode* node) -> void {
+    document_->forget(node);
+    document_->text_where.erase(node);
+    for (const xmlAttr* attribute = node->properties; attribute; attribute = attribute->next)
+      document_->forget(attribute);
+    for (xmlNode* child : childElements(node)) self(self, child);
+  };
+  forget(forget, asNode(node_));
+  xmlUnlinkNode(asNode(node_));
+  xmlFreeNode(asNode(node_));
+  node_ = nullptr;
+}
+
 }  // namespace presa::xml

@@ -72,9 +72,16 @@ class Element {
   void setAttribute(const std::string& attribute, const std::string& value, const SourceLocation& origin);
   void removeAttribute(const std::string& attribute);
   Element addChild(const std::string& name, const SourceLocation& origin);
+  /// Copies of an element of any document with all that is in it, which keep their locations: the last child, or in front
+  /// of this element.
+  Element addCopy(const Element& of);
+  Element insertCopy(const Element& of);
+  /// Takes the element out of its document; no handle to it is valid any more.
+  void remove();
 
  private:
   friend class Document;
+  Element copyOf(const Element& of);
   Element(DocumentData* document, void* node) : document_(document), node_(node) {}
   DocumentData* document_;
   void* node_;

@@ -164,6 +164,24 @@ TEST(Check, FindsTexturesThatAreMissingTooLargeOrOutside) {
     EXPECT_NE(found.err.find(text), std::string::npos) << found.err;
 }
 
+// What is printed is a scene of its own.
+TEST(Check, PrintsASceneAsItIsRead) {
+  test::written(scratch("part.xml"),
+                "<scene version=\"1.0\" name=\"p\"><world gravity=\"0 0 0\"/><body name=\"box\" "
+                "fixed=\"true\"><visual><sphere radius=\"0.1\"/></visual></body></scene>");
+  const std::string scene = scratch("whole.xml");
+  test::written(scene,
+                "<scene version=\"1.0\" name=\"w\"><world gravity=\"0 0 0\"/><materials><material name=\"m\" "
+                "stiffness=\"500\"/></materials><include file=\"part.xml\" prefix=\"a_\" pos=\"0 0 1\"/></scene>");
+  const test::Outcome printed = presa("check --print-resolved " + scene);
+  ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_NE(printed.out.find("<body name=\"a_box\""), std::string::npos) << printed.out;
+  EXPECT_EQ(printed.out.find("<include"), std::string::npos);
+  const std::string again = scratch("again.xml");
+  test::written(again, printed.out);
+  EXPECT_EQ(presa("check --print-resolved " + again).out, printed.out);
+}
+
 TEST(Check, TakesRigsMotionsAndExperiments) {
   using check::FileKind;
   EXPECT_EQ(check::kindOf(source("config/rigs/pinch_cube.xml")), FileKind::kRig);
