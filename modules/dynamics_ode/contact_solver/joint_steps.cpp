@@ -80,6 +80,7 @@ void JointSteps::giveBack(double h) {
   for (std::size_t j = 0; j < end_.size(); ++j) {
     ContactProblem::Joint& joint = problem_->joints[j];
     joint.f_B_W = joint.m_B_W = Vec3::Zero();
+    joint.lead = {};
     for (; i < end_[j]; ++i) addLoad(rows_[i], steps_[i].impulse / h, joint);
   }
 }

@@ -9,7 +9,11 @@ namespace presa::ode {
 /// at the start of every small step, impulses from the one before.
 class JointSteps {
  public:
-  void makeRoom(std::size_t joints) { rows_.reserve(kMaxJointRows * joints); }
+  void makeRoom(std::size_t joints) {
+    rows_.reserve(kMaxJointRows * joints);
+    steps_.reserve(kMaxJointRows * joints);
+    end_.reserve(joints);
+  }
   /// Starts a period.
   void begin();
   /// Starts a small step of `h` [s]: takes the rows and applies the impulses of the one before to the velocities.
