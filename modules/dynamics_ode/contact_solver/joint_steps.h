@@ -18,7 +18,7 @@ class JointSteps {
   void begin();
   /// Starts a small step of `h` [s]: takes the rows and applies the impulses of the one before to the velocities.
   void beginStep(ContactProblem& problem, const std::vector<Mat3>& inverse_inertia_W, double h);
-  /// One sweep over the rows. Without `feedback` locked directions stop moving, but close no gap.
+  /// Sweeps over the rows, some tens of times until they agree. Without `feedback` locked directions stop moving, but close no gap.
   void sweep(bool feedback);
   /// Writes the forces of the last small step, of `h` [s], to the joints.
   void giveBack(double h);
@@ -31,7 +31,7 @@ class JointSteps {
   };
   void connect(const std::vector<Mat3>& inverse_inertia_W, const AxisRow& row, Step& step) const;
   void apply(const AxisRow& row, const Step& step, double impulse);
-  void solve(std::size_t i, bool feedback);
+  double solve(std::size_t i, bool feedback);
 
   ContactProblem* problem_ = nullptr;
   std::vector<AxisRow> rows_;

@@ -132,6 +132,38 @@ TEST(JointEdge, WeightHangsWhereItsSpringBalancesInSmallSteps) {
   EXPECT_NEAR(runner[0].X_WB_end.p.z(), -0.5 * kGravity / 200, 1e-8);
 }
 
+// In small steps, too, a door that falls on its stop stays there, alone or with a weight at its end: no rebound.
+TEST(JointEdge, DoorFallsOnItsStopAndStaysInSmallSteps) {
+  OdeOptions options = awake();
+  options.method.solver = DynamicsSettings::Solver::kSmallSteps;
+  for (const bool weighted : {false, true}) {
+    WorldMaker maker;
+    maker.box({0.02, 0.02, 0.3}, 0.3, {{0.15, 0, 0}, turn(-std::numbers::pi / 2, Vec3::UnitY())});
+    maker.joint(JointType::kHinge, {0, 0, 0.15}, {Vec3::UnitY()}).axes[0].upper = radians(40);
+    if (weighted) {
+      maker.box(kCube, 0.1, {{0.3, 0, 0}, Quat::Identity()});
+      maker.joint(JointType::kFixed, Vec3::Zero(), {}, 0);
+    }
+    Runner runner(maker.world(), options);
+    const auto angle = [&] {
+      const Vec3 out = runner[0].X_WB_end.q * -Vec3::UnitZ();
+      return degrees(std::atan2(-out.z(), out.x()));
+    };
+    double beyond = 0, back = 0;
+    bool reached = false;
+    for (int n = 0; n < 200; ++n) {
+      runner.step();
+      reached = reached || angle() > 39.9;
+      beyond = std::max(beyond, angle() - 40);
+      if (reached) back = std::max(back, 40 - angle());
+    }
+    EXPECT_TRUE(reached);
+    EXPECT_LT(beyond, 0.01);
+    EXPECT_LT(back, 0.2);
+    EXPECT_NEAR(angle(), 40, 1e-3);
+  }
+}
+
 /// A knob about z with stops, turned by hand: held at these angles, then let go [degrees].
 double knobAfter(std::optional<double> lower, std::optional<double> upper, const std::vector<double>& by_hand,
                  bool read) {
