@@ -18,7 +18,8 @@ class JointSteps {
   void begin();
   /// Starts a small step of `h` [s]: takes the rows and applies the impulses of the one before to the velocities.
   void beginStep(ContactProblem& problem, const std::vector<Mat3>& inverse_inertia_W, double h);
-  /// Sweeps over the rows, some tens of times until they agree. Without `feedback` locked directions stop moving, but close no gap.
+  /// Sweeps over the rows, some tens of times until they agree. Without `feedback` locked directions stop moving, but
+  /// close no gap.
   void sweep(bool feedback);
   /// Writes the forces of the last small step, of `h` [s], to the joints.
   void giveBack(double h);
