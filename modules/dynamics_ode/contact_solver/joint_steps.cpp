@@ -8,8 +8,8 @@
 namespace presa::ode {
 namespace {
 
-// Sweeps over joints alone, until no impulse changes the energy by more than this part of what the largest does: stops and
-// locked directions of a door share its inertia, and an impact that they disagreed about would come back.
+// Sweeps over joints alone, until no impulse changes the energy by more than this part of what the largest does: stops
+// and locked directions of a door share its inertia, and an impact that they disagreed about would come back.
 constexpr std::size_t kMinRepeats = 4, kMaxRepeats = 40, kMaxSolves = 1500;  // of rows
 constexpr double kSettles = 1e-6;
 

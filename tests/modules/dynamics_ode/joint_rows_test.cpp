@@ -49,8 +49,8 @@ struct Loaded {
   std::unique_ptr<Runner> runner;
 };
 
-// 100 N at the middle of a plate of 0.3 m, along each direction, and with it 15 N m about the others. A ball is loaded along
-// its arm only, where it stands. The largest error of the second 5 s is that of the first: it is steady.
+// 100 N at the middle of a plate of 0.3 m, along each direction, and with it 15 N m across. A ball is loaded along its arm
+// only, where it stands. The largest error of the second 5 s is that of the first: it is steady.
 TEST(JointRows, HoldAHundredNewtons) {
   for (const Case& kind : kinds()) {
     for (const Vec3& along : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
@@ -137,8 +137,8 @@ TEST(JointRows, PendulumOfTwoBodiesKeepsPeriodAndEnergyForAMinute) {
   }
 }
 
-// A prismatic-rotary joint with a spring along its first axis and a motor about its second, beside a body on a ball joint
-// that shares its centre. Along: the trapezoidal rule with the mass of both. About: torque over inertia, then its speed.
+// A prismatic-rotary joint with a spring along its first axis and a motor about its second, which carries a body on a ball
+// joint at its centre. Along: the trapezoidal rule with the mass of both. About: torque over inertia, then its speed.
 TEST(JointRows, PrismaticRotarySwingsAlongAndTurnsAbout) {
   const double mass = 0.5, stiffness = 80, torque = 1e-3, speed = 6;
   const Vec3 size(0.08, 0.08, 0.04), along = Vec3(1, 2, 2).normalized(), about = Vec3::UnitZ();
