@@ -43,6 +43,18 @@ BodyPenetration penetrationOf(const std::vector<BodyContact>& contacts) noexcept
   return in;
 }
 
+// Bodies that a joint's motor moves.
+std::vector<std::size_t> drivenBodies(const Scene& scene) {
+  std::vector<std::size_t> driven;
+  const auto moves = [](const JointAxis& axis) { return axis.max_force > 0 && axis.speed != 0; };
+  for (const Joint& joint : scene.joints) {
+    if (std::ranges::none_of(joint.axes, moves)) continue;
+    driven.push_back(joint.body);
+    if (joint.to != Joint::kWorld) driven.push_back(joint.to);
+  }
+  return driven;
+}
+
 // For ODE's iterative solver contacts ahead of the touch cost more than they help; Presa's own take all that may meet,
 // since in a heap a body can be hit from anywhere.
 Foresight foresightOf(const DynamicsSettings& method) {
@@ -77,7 +89,7 @@ struct OdeWorld::Impl {
       links.emplace(*world);
       if (!own_solvers) engine_joints.emplace(*world, bodies, engine.world());
     }
-    if (options.method.sleeping) sleep.emplace(bodies);
+    if (options.method.sleeping) sleep.emplace(bodies, drivenBodies(world->scene));
     if (options.gives_what_is_felt) owed.emplace();
   }
 
@@ -286,6 +298,7 @@ void OdeWorld::Impl::step(const ContactExchange& exchange, double time, double p
   if (body_effects) wakeStirred(time, period);
   if (!bodies.anyAwake()) {
     contacts.clear();
+    if (links) links->read(bodies);  // a held body turns on
     return impulses.end();
   }
   int substeps = 1;

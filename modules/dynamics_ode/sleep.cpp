@@ -60,6 +60,9 @@ void Sleep::afterStep(BodySet& bodies, Islands& islands, double h) {
     closeWindow(bodies, i, islands[island].contacts > kHeap);
     if (!stillness_[i].still || islands[island].touched) may_sleep_[island] = 0;
   }
+  for (const std::size_t i : driven_) {
+    if (bodies.awake(i)) may_sleep_[islands.of(i)] = 0;
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies.awake(i) || may_sleep_[islands.of(i)] == 0) continue;
     group_[i] = islands.of(i);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "modules/dynamics_ode/body_set.h"
@@ -16,11 +17,15 @@ namespace presa::ode {
 /// contacts the limits are therefore 0.4 mm for the mean and 0.8 mm for trembling. Falling, sliding or tipping exceeds
 /// them within a window.
 ///
+/// What a joint's motor drives stays awake, however slow it is: an hour hand.
+///
 /// A sleeping body does not move and collides only with awake bodies. Its whole island wakes in the step in which a
 /// finger or an awake body touches one of its bodies.
 class Sleep {
  public:
-  explicit Sleep(const BodySet& bodies) : stillness_(bodies.size()), may_sleep_(bodies.size()), group_(bodies.size()) {}
+  /// `driven`: bodies whose islands stay awake.
+  explicit Sleep(const BodySet& bodies, std::vector<std::size_t> driven = {})
+      : stillness_(bodies.size()), may_sleep_(bodies.size()), group_(bodies.size()), driven_(std::move(driven)) {}
 
   /// Call after each step of `h` [s]: observes awake bodies and puts resting islands to sleep.
   void afterStep(BodySet& bodies, Islands& islands, double h);
@@ -49,6 +54,7 @@ class Sleep {
   std::vector<Stillness> stillness_;
   std::vector<char> may_sleep_;     // by island, while a window closes
   std::vector<std::size_t> group_;  // by sleeping body: the island in which it fell asleep
+  std::vector<std::size_t> driven_;
   double window_time_ = 0;
   bool any_paused_ = false;
 };

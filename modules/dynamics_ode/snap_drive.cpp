@@ -96,10 +96,11 @@ bool SnapDrive::hasChanged(std::size_t i) {
   return !same;
 }
 
-// Wakes the sleeping neighbours, which may have leaned on body i.
+// Wakes the sleeping neighbours, which may have leaned on body i, and those joined to it.
 void SnapDrive::wakeAround(std::size_t i, BodySet& bodies, Sleep& sleep) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
-    if (j != i && bodies.asleep(j) && bodies.areNear(i, j, kMayTouch)) sleep.wake(bodies, j);
+    if (j == i || !bodies.asleep(j)) continue;
+    if (!bodies.meet(i, j) || bodies.areNear(i, j, kMayTouch)) sleep.wake(bodies, j);
   }
 }
 

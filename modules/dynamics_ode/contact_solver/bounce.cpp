@@ -145,7 +145,8 @@ void Bounce::boundEnergy(ContactProblem& problem) {
 
 void Bounce::fallExactly(ContactProblem& problem) const {
   const auto pushes = [](const Contact& c) { return !c.f_B_W.isZero(); };
-  if (!problem.fingers.empty() || !problem.motors.empty() || std::ranges::any_of(problem.contacts, pushes)) return;
+  if (!problem.joints.empty() || !problem.fingers.empty() || !problem.motors.empty()) return;
+  if (std::ranges::any_of(problem.contacts, pushes)) return;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     Body& body = problem.bodies[i];
     body.p_WCm = begin_[i].p_WCm + h_ / 2 * (begin_[i].v_WCm + body.v_WCm);

@@ -16,6 +16,8 @@ namespace {
 using Problem = ContactProblem;
 using Vec6 = AxisRow::Vec6;
 
+constexpr double kParallel = 1e-6;  // sine of the angle between axes
+
 // A locked rotation: e = error.dot(direction), about `direction`, in the axes of J in A.
 struct Turns {
   std::size_t count = 0;
@@ -51,7 +53,8 @@ Turns lockedTurns(const Joint& joint, const Quat& q_J) {
       break;
     case JointType::kUniversal: {
       const Vec3 x = q_J * Vec3::UnitX(), about = x.cross(Vec3::UnitZ());
-      turns.add(about.normalized(), x.z() / about.norm());
+      const double sine = about.norm();  // torn apart, the axes may be parallel
+      turns.add(sine < kParallel ? x.unitOrthogonal() : Vec3(about / sine), std::atan2(x.z(), sine));
       break;
     }
     case JointType::kBall:

@@ -1,10 +1,19 @@
 #include "modules/dynamics_ode/contact_solver/joint_steps.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
+namespace {
+
+// Sweeps over joints alone, until no impulse changes the energy by more than this part of what the largest does: stops
+// and locked directions of a door share its inertia, and an impact that they disagreed about would come back.
+constexpr std::size_t kMinRepeats = 4, kMaxRepeats = 40, kMaxSolves = 1500;  // of rows
+constexpr double kSettles = 1e-6;
+
+}  // namespace
 
 void JointSteps::begin() {
   rows_.clear();
@@ -52,7 +61,8 @@ void JointSteps::beginStep(ContactProblem& problem, const std::vector<Mat3>& inv
   for (std::size_t i = 0; i < rows_.size(); ++i) apply(rows_[i], steps_[i], steps_[i].impulse);
 }
 
-void JointSteps::solve(std::size_t i, bool feedback) {
+// Returns the change of the impulse.
+double JointSteps::solve(std::size_t i, bool feedback) {
   const AxisRow& row = rows_[i];
   Step& step = steps_[i];
   double u = 0, goal = row.goal;
@@ -67,12 +77,24 @@ void JointSteps::solve(std::size_t i, bool feedback) {
   }
   const double wanted = step.impulse + (goal - u - step.impulse / row.k) / step.compliance;
   const double impulse = row.clamped(wanted);
-  apply(row, step, impulse - step.impulse);
+  const double change = impulse - step.impulse;
+  apply(row, step, change);
   step.impulse = impulse;
+  return change;
 }
 
 void JointSteps::sweep(bool feedback) {
-  for (std::size_t i = 0; i < rows_.size(); ++i) solve(feedback ? i : rows_.size() - 1 - i, feedback);
+  const std::size_t repeats = std::clamp(kMaxSolves / std::max<std::size_t>(1, rows_.size()), kMinRepeats, kMaxRepeats);
+  for (std::size_t n = 0; n < repeats; ++n) {
+    double change = 0, moves = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const std::size_t row = feedback ? i : rows_.size() - 1 - i;
+      const double dp = solve(row, feedback), compliance = steps_[row].compliance;
+      change = std::max(change, dp * dp * compliance);
+      moves = std::max(moves, steps_[row].impulse * steps_[row].impulse * compliance);
+    }
+    if (change <= kSettles * moves) break;
+  }
 }
 
 void JointSteps::giveBack(double h) {
@@ -80,6 +102,7 @@ void JointSteps::giveBack(double h) {
   for (std::size_t j = 0; j < end_.size(); ++j) {
     ContactProblem::Joint& joint = problem_->joints[j];
     joint.f_B_W = joint.m_B_W = Vec3::Zero();
+    joint.lead = {};
     for (; i < end_[j]; ++i) addLoad(rows_[i], steps_[i].impulse / h, joint);
   }
 }

@@ -9,12 +9,17 @@ namespace presa::ode {
 /// at the start of every small step, impulses from the one before.
 class JointSteps {
  public:
-  void makeRoom(std::size_t joints) { rows_.reserve(kMaxJointRows * joints); }
+  void makeRoom(std::size_t joints) {
+    rows_.reserve(kMaxJointRows * joints);
+    steps_.reserve(kMaxJointRows * joints);
+    end_.reserve(joints);
+  }
   /// Starts a period.
   void begin();
   /// Starts a small step of `h` [s]: takes the rows and applies the impulses of the one before to the velocities.
   void beginStep(ContactProblem& problem, const std::vector<Mat3>& inverse_inertia_W, double h);
-  /// One sweep over the rows. Without `feedback` locked directions stop moving, but close no gap.
+  /// Sweeps over the rows, some tens of times until they agree. Without `feedback` locked directions stop moving, but
+  /// close no gap.
   void sweep(bool feedback);
   /// Writes the forces of the last small step, of `h` [s], to the joints.
   void giveBack(double h);
@@ -27,7 +32,7 @@ class JointSteps {
   };
   void connect(const std::vector<Mat3>& inverse_inertia_W, const AxisRow& row, Step& step) const;
   void apply(const AxisRow& row, const Step& step, double impulse);
-  void solve(std::size_t i, bool feedback);
+  double solve(std::size_t i, bool feedback);
 
   ContactProblem* problem_ = nullptr;
   std::vector<AxisRow> rows_;

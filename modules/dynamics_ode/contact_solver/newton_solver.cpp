@@ -24,12 +24,13 @@ constexpr double kTouches = 1e-3;        // a gap that this closing speed closes
 constexpr double kFlatEnough = 1e-3;     // slope at the end of a line search, in relation to that at its start
 constexpr double kMotorSoftness = 1e-8;  // as Options::softness
 constexpr int kSearchSteps = 20;
-constexpr int kAims = 20;         // corrections of the goals of joints between two minimisations
-constexpr double kAimed = 1e-7;   // last of them [m/s, rad/s]
-constexpr double kFree = 4;       // (h omega)^2 of a turn up to which a step follows it
-constexpr double kShrinks = 0.8;  // each in relation to the one before
-constexpr double kTurned = 1e-6;  // the same along the directions at the end [m/s, rad/s]
-constexpr int kTurns = 20;        // minimisations for that
+constexpr int kStiffSearchSteps = 60;  // with joints, whose friction and motors give way within 1e-10 of a step
+constexpr int kAims = 20;              // corrections of the goals of joints between two minimisations
+constexpr double kAimed = 1e-7;        // last of them [m/s, rad/s]
+constexpr double kFree = 4;            // (h omega)^2 of a turn up to which a step follows it
+constexpr double kShrinks = 0.8;       // each in relation to the one before
+constexpr double kTurned = 1e-6;       // the same along the directions at the end [m/s, rad/s]
+constexpr int kTurns = 20;             // minimisations for that
 
 Mat3 cross(const Vec3& r) {
   Mat3 m;
@@ -333,7 +334,8 @@ double NewtonSolver::slopeAt(double alpha, const Vector& v, const Vector& dv, do
 double NewtonSolver::lineSearch(const Vector& v, const Vector& dv) const {
   double curvature = 0, low = 0, high = 1, alpha = 1;
   const double at_start = slopeAt(0, v, dv, curvature);
-  for (int i = 0; i < kSearchSteps; ++i) {
+  const int steps = locked_.empty() ? kSearchSteps : kStiffSearchSteps;
+  for (int i = 0; i < steps; ++i) {
     const double slope = slopeAt(alpha, v, dv, curvature);
     if ((slope <= 0 && alpha == 1) || std::abs(slope) < kFlatEnough * std::abs(at_start)) break;
     (slope > 0 ? high : low) = alpha;
@@ -519,6 +521,7 @@ void NewtonSolver::giveBackJoints(ContactProblem& problem, double h) const {
   for (std::size_t j = 0; j < problem.joints.size(); ++j) {
     ContactProblem::Joint& joint = problem.joints[j];
     const Locked& rows = locked_[j];
+    joint.lead.fill(0);  // that of an axis, too, which has no row here and would run away
     for (std::size_t i = 0; i < rows.count; ++i)
       joint.lead[i] = is_stiff_ ? 0 : axes_[rows.first + i].goal + closable(rows.begin, i, h) / h;
     joint.f_B_W = joint.m_B_W = Vec3::Zero();

@@ -381,12 +381,12 @@ void SmallSteps::solve(ContactProblem& problem, double period) {
   soften();
   joints_.begin();
   for (int step = 0; step < count; ++step) {
-    addForces();
-    followRims(h_ / 2);
-    if (!problem.joints.empty()) {
+    if (!problem.joints.empty()) {  // before the forces: springs start from the velocities at the begin
       for (std::size_t i = 0; i < problem.bodies.size(); ++i) turnInertia(i);
       joints_.beginStep(problem, inverse_inertia_W_, h_);
     }
+    addForces();
+    followRims(h_ / 2);
     warmStart();
     sweep(true);
     advance();

@@ -299,6 +299,28 @@ void HapticRateModule::findGroups() noexcept {
   }
 }
 
+// A joined pair is held or free as one, also where its islands were not found together: on its way back, touched again.
+void HapticRateModule::takeJoined() noexcept {
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const Joint& joint : world_->scene.joints) {
+      if (joint.to == Joint::kWorld) continue;
+      grown = takePartner(joint.body, joint.to) || takePartner(joint.to, joint.body) || grown;
+    }
+  }
+}
+
+bool HapticRateModule::takePartner(std::size_t one, std::size_t other) noexcept {
+  const Entry* holder = find(one);
+  if (holder == nullptr || !isHeld(*holder) || is_free_[other] == 0) return false;
+  Group& group = groups_[holder->group];
+  if (const Entry* partner = find(other); !group.grows || (partner != nullptr && isHeld(*partner))) return false;
+  const std::size_t taken = takeIsland(other, {group.size, holder->touched, holder->group});
+  group.grows = taken > 0;
+  group.size += taken;
+  return taken > 0;
+}
+
 // Takes over what a held group has met, also on its way after the fingers let go.
 void HapticRateModule::growGroups() noexcept {
   for (const BodyContact& contact : bodies_->contacts()) {
@@ -313,6 +335,7 @@ void HapticRateModule::growGroups() noexcept {
       group.size += taken;
     }
   }
+  takeJoined();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (groups_[g].size > world_->scene.dynamics.max_held || !groups_[g].grows) giveBack(g);
   }

@@ -87,6 +87,8 @@ class HapticRateModule final : public Module, public PluginHost {
   void take(std::size_t body, const Joined& to) noexcept;
   static bool unite(Entry& a, Entry& b) noexcept;
   void findGroups() noexcept;
+  void takeJoined() noexcept;
+  bool takePartner(std::size_t one, std::size_t other) noexcept;
   void growGroups() noexcept;
   void leave(Entry& entry) noexcept;
   void giveBack(std::size_t group) noexcept;

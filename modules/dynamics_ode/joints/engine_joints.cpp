@@ -16,7 +16,7 @@ EngineJoints::EngineJoints(const World& world, const BodySet& bodies, dWorldID o
   for (const Joint& joint : world.scene.joints) {
     const Pose X_WB = world.scene.bodies[joint.body].X_WB;
     const Vec3 p = X_WB * joint.p_BJ;
-    const Vec3 d = joint.axes.empty() ? Vec3(Vec3::UnitZ()) : Vec3(X_WB.q * joint.axes[0].dhat_B);
+    Vec3 d = joint.axes.empty() ? Vec3(Vec3::UnitZ()) : Vec3(X_WB.q * joint.axes[0].dhat_B);
     const dBodyID body = bodies.body(joint.body), to = joint.to == Joint::kWorld ? nullptr : bodies.body(joint.to);
     dJointID made = nullptr;
     switch (joint.type) {
@@ -24,6 +24,7 @@ EngineJoints::EngineJoints(const World& world, const BodySet& bodies, dWorldID o
         made = dJointCreateHinge(ode_world, nullptr);
         dJointAttach(made, body, to);
         dJointSetHingeAnchor(made, p.x(), p.y(), p.z());
+        if (body == nullptr) d = -d;  // the engine then swaps the two, but not the sense of a hinge
         dJointSetHingeAxis(made, d.x(), d.y(), d.z());
         setAxis(made, joint.axes[0], dJointSetHingeParam);
         break;

@@ -6,7 +6,15 @@
 namespace presa::ode {
 namespace {
 
+constexpr double kLessThanATurn = 6;  // [rad]
+
 bool needsPosition(const JointAxis& axis) { return axis.lower || axis.upper || axis.stiffness > 0; }
+
+// Between two stops an angle is known from the pose alone, also after turns that nobody read.
+double startOf(const JointAxis& axis, double last) {
+  const bool bounded = axis.lower && axis.upper && *axis.upper - *axis.lower < kLessThanATurn;
+  return bounded ? (*axis.lower + *axis.upper) / 2 : last;
+}
 
 double nearest(double angle, double to) { return to + std::remainder(angle - to, 2 * std::numbers::pi); }
 
@@ -44,14 +52,16 @@ void JointSet::read(const BodySet& bodies) {
     link.at = presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
     for (std::size_t i = 0; i < joint.axes.size(); ++i) {
       if (!needsPosition(joint.axes[i])) continue;
+      const JointAxis& axis = joint.axes[i];
       const double position = positionOf(joint, i, link.at);
-      link.position[i] = joint.axes[i].turns ? nearest(position, link.position[i]) : position;
+      link.position[i] = axis.turns ? nearest(position, startOf(axis, link.position[i])) : position;
     }
   }
 }
 
 std::size_t JointSet::movingBody(std::size_t i, const BodySet& bodies) const {
   const Joint& joint = *links_[i].joint;
+  if (joint.to != Joint::kWorld && bodies.awake(joint.to) && !bodies.awake(joint.body)) return joint.to;
   if (bodies.moves(joint.body)) return joint.body;
   return joint.to != Joint::kWorld && bodies.moves(joint.to) ? joint.to : bodies.size();
 }

@@ -20,9 +20,9 @@ class JointSet {
   /// Joins the islands of bodies that joints hold together.
   void link(const BodySet& bodies, Islands& islands) const;
   /// Reads how all joints stand, and the positions of axes with stops or springs; angles go on from those read last,
-  /// beyond half a turn, too.
+  /// beyond half a turn, too, except between two stops less than a turn apart.
   void read(const BodySet& bodies);
-  /// A body that moves of joint i; BodySet::size() if there is none.
+  /// A body that moves of joint i, an awake one if there is one; BodySet::size() if there is none.
   std::size_t movingBody(std::size_t i, const BodySet& bodies) const;
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;

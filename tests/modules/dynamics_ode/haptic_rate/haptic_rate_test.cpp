@@ -4,6 +4,7 @@
 
 #include "modules/dynamics_ode/haptic_rate/gentle_return.h"
 #include "tests/modules/dynamics_ode/haptic_rate/held_bench.h"
+#include "tests/support/edited.h"
 
 namespace presa::held {
 namespace {
@@ -123,6 +124,41 @@ TEST(HeldAtHapticRate, ABodyIsTakenAgainOnItsWayBack) {
   EXPECT_EQ(bench.eye->held->too_many, 0U);
   ASSERT_EQ(bench.eye->held->bodies.size(), 1U);
   EXPECT_EQ(bench.eye->held->bodies[0].phase, ode::HeldBody::Phase::kHeld);
+}
+
+// Fingers that touch one of a joined pair again just as the pair is on its way back take both, in whichever tick it is.
+TEST(HeldAtHapticRate, AJoinedPairIsTakenAgainAsOne) {
+  std::size_t most_leaving = 0;
+  for (int later = 0; later < 8; ++later) {  // ticks
+    const auto tapping = [=](double side) {
+      return along([=](double t) {
+        const double back = 1.048 + later * kTick;
+        const double gap = 0.003 - (0.003 + kDepth) * (smooth(t, 0.05, 0.3) - (t < 1 ? 0 : 1) + (t < back ? 0 : 1));
+        return Vec3(side * (kHalf + kRadius + gap), 0, 0.02);
+      });
+    };
+    std::string xml = cubesXml({0, 0.1, 0.5}, false);
+    xml = test::edited(xml, "0.100000 0 0.02", "0 0.05 0.02");
+    xml = test::edited(xml, "<body name=\"cube2\"", "<body name=\"cube2\" velocity=\"0 0 1\"");  // keeps dynamics busy
+    xml = test::edited(xml, "<devices>", "<joint name=\"hold\" type=\"fixed\" body=\"cube1\" to=\"cube0\"/><devices>");
+    Bench bench(xml, {tapping(-1), tapping(1)});
+    std::size_t split = 0, together = 0, leaving = 0;
+    bench.eye->look = [&](const Tick&) {
+      const auto& bodies = bench.eye->held->bodies;
+      const auto count = [&](ode::HeldBody::Phase phase) {
+        return std::ranges::count_if(bodies, [&](const ode::HeldBody& body) { return body.phase == phase; });
+      };
+      split += count(ode::HeldBody::Phase::kHeld) == 1 ? 1 : 0;
+      together += count(ode::HeldBody::Phase::kHeld) == 2 ? 1 : 0;
+      leaving += count(ode::HeldBody::Phase::kLeaving) == 2 ? 1 : 0;
+    };
+    test::GuardedSteps steps(*bench.session);
+    steps.run(1200);
+    EXPECT_EQ(split, 0U) << later;
+    EXPECT_GT(together, 900U) << later;
+    most_leaving = std::max(most_leaving, leaving);
+  }
+  EXPECT_GE(most_leaving, 3U);  // it was on its way
 }
 
 // A cube that a finger has flicked against another one gives it half of its momentum, less what the floor takes in the
