@@ -97,6 +97,7 @@ void GuideDesk::show(const Stamp& stamp, const AssemblyState& assembly) noexcept
 
 void GuideDesk::serve(const Stamp& stamp, const AssemblyState& assembly) noexcept {
   if (!post_) return;
+  changes_ = 0;
   read(stamp, assembly);
   constexpr auto kSilenceNs = static_cast<std::int64_t>(kSilence * 1e9);
   bool behind = false;
@@ -167,7 +168,8 @@ void GuideDesk::obey(const GuideOrder& order, const Stamp& stamp, const Assembly
     GuideOrders::Draw& draw = orders_.draws[g];
     const bool pulls = g < assembly.goals.size() && assembly.goals[g].status != Status::kOpen;
     const bool again = order.draws[g] != kNoBody && !pulls && stamp.sequence - begun_[g] > kAgain;
-    if (order.draws[g] == draw.body && !again) continue;
+    if ((order.draws[g] == draw.body && !again) || changes_ == kMostChanges) continue;
+    ++changes_;
     draw = {order.draws[g], draw.since + 1};
     begun_[g] = stamp.sequence;
   }

@@ -28,7 +28,9 @@ class GuideDesk {
   static constexpr double kSilence = 0.5;
   static constexpr std::uint64_t kOldest = 40;    ///< age of the states that an order may decide on [publications]
   static constexpr std::size_t kMostAtOnce = 32;  ///< orders of the guide read at one publication
-  static constexpr double kUndoEvery = 0.2;       ///< shortest time between two undos [simulated s]
+  /// Draws begun or ended at one publication; more wait for the next. A recording takes one for each haptic tick.
+  static constexpr int kMostChanges = 4;
+  static constexpr double kUndoEvery = 0.2;  ///< shortest time between two undos [simulated s]
 
   GuideDesk(const Scene& scene, bool realtime, Open open);
   /// Before the run, in lockstep: the first publication waits for a guide as long as this returns true.
@@ -73,6 +75,7 @@ class GuideDesk {
   std::uint64_t told_ = 0;                           // events heard of led_
   double told_until_ = -1e300, led_from_ = -1e300;   // times of the newest event heard, now and when led_ began [s]
   bool finish_told_ = false;                         // and nothing placed or undone since
+  int changes_ = 0;                                  // of draws at this publication
   double undone_at_ = -1e300;                        // [s]
   std::vector<std::uint64_t> begun_;                 // by goal: publication at which its draw began
   std::uint64_t taken_ = 0, refused_ = 0;            // orders

@@ -286,6 +286,28 @@ TEST_F(GuideDeskTest, EventsAreToldOnceWhateverGuideLeads) {
   EXPECT_EQ(desk_->report().told, 7u) << "all stands once more";
 }
 
+// A recording keeps up with the changes of draws: one for each haptic tick. The rest of an order waits.
+TEST_F(GuideDeskTest, ManyDrawsBeginOneAfterTheOther) {
+  const int many = 2 * GuideDesk::kMostChanges + 1;
+  scene_.bodies.resize(static_cast<std::size_t>(many));
+  scene_.assembly->goals.clear();
+  for (std::size_t g = 0; g < scene_.bodies.size(); ++g)
+    scene_.assembly->goals.push_back({.name = "goal", .bodies = {g}, .X_WB = {}, .after = {}});
+  state_.goals.resize(scene_.bodies.size());
+  desk_ = std::make_unique<GuideDesk>(scene_, true, [this] { return bus_.orderPost(); });
+  desk_->start(kGuidedRun);
+  publish();
+  for (const int begun : {GuideDesk::kMostChanges, 2 * GuideDesk::kMostChanges, many}) {
+    GuideOrder all = order();
+    all.draws.clear();
+    for (std::int32_t body = 0; body < many; ++body) all.draws.push_back(body);
+    sender_->send(all);
+    publish();
+    EXPECT_EQ(std::ranges::count_if(desk_->orders().draws, [](const auto& draw) { return draw.body != kNoBody; }),
+              begun);
+  }
+}
+
 /// Repeats an order on the first publication whenever it is asked, as a guide that missed all others.
 class BehindPost final : public OrderPost {
  public:
