@@ -187,8 +187,8 @@ void GuideDesk::follow(const GuideOrder& order, const Stamp& stamp) {
   note(stamp.time, takeovers_++ == 0 ? "a viewer guides the assembly" : "a viewer has taken over the guide");
 }
 
-// A guide that leads again after another one sends its last events once more, and one that has taken over may find all in
-// place once more.
+// A guide that leads again after another one sends its last events once more, and one that has taken over may find all
+// in place once more.
 bool GuideDesk::isNews(const GuideEvent& event) const noexcept {
   return event.time > led_from_ && !(finish_told_ && event.kind == GuideEvent::Kind::kFinished);
 }

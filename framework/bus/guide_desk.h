@@ -24,7 +24,7 @@ namespace presa::bus {
 class GuideDesk {
  public:
   using Open = std::function<std::unique_ptr<OrderPost>()>;
-  /// Time without orders after which a guide no longer leads; in lockstep also without one on the newest publication [s].
+  /// Time without orders after which a guide no longer leads; in lockstep without one on the newest publication [s].
   static constexpr double kSilence = 0.5;
   static constexpr std::uint64_t kOldest = 40;    ///< age of the states that an order may decide on [publications]
   static constexpr std::size_t kMostAtOnce = 32;  ///< orders of the guide read at one publication
