@@ -27,6 +27,16 @@ AssemblyGuide::AssemblyGuide(const Assembly& assembly, std::size_t bodies)
   now_.elapsed = assembly.elapsed;
 }
 
+void AssemblyGuide::resume(const AssemblyState& assembly) {
+  for (std::size_t g = 0; g < stood_.size(); ++g) {
+    if (!filled(assembly, g)) continue;
+    stood_[g] = 1;
+    stands_[g] = assembly.goals[g].body;
+  }
+  now_.placed = static_cast<std::int32_t>(std::ranges::count(stood_, 1));
+  progress_at_ = assembly.time;
+}
+
 void AssemblyGuide::step(double time, const ObjectState& objects, const AssemblyState& assembly,
                          const ContactExchange& contacts) {
   time_ = time;

@@ -40,6 +40,9 @@ class AssemblyGuide {
  public:
   explicit AssemblyGuide(const Assembly& assembly, std::size_t bodies);
 
+  /// Before the first step, where another guide has led: what stands was placed before, and hesitation begins now.
+  /// Indices of filled goals must name bodies.
+  void resume(const AssemblyState& assembly);
   /// `time`: simulated time of the states [s]; must not decrease.
   void step(double time, const ObjectState& objects, const AssemblyState& assembly, const ContactExchange& contacts);
   const Guidance& now() const noexcept { return now_; }

@@ -18,6 +18,23 @@ constexpr std::int64_t kOrderLook = 50'000, kAwaitLook = 2'000'000;
 
 bool isBelow(std::int32_t i, std::size_t count) { return i >= 0 && static_cast<std::size_t>(i) < count; }
 
+bool isPlausible(const GuideEvent& event, std::size_t bodies, std::size_t goals) {
+  using Kind = GuideEvent::Kind;
+  const bool of_goal = event.kind == Kind::kPlaced || event.kind == Kind::kUndone || event.kind == Kind::kBlocked ||
+                       event.kind == Kind::kHint;
+  const bool of_body = event.kind != Kind::kFinished && event.kind != Kind::kHint;
+  return event.kind <= Kind::kFinished && std::isfinite(event.time) && event.goal < static_cast<std::int32_t>(goals) &&
+         event.body < static_cast<std::int32_t>(bodies) && event.goal >= (of_goal ? 0 : kNoGoal) &&
+         event.body >= (of_body ? 0 : kNoBody);
+}
+
+/// Whether the event may be Guidance::news: all of these name a body, of which captions tell.
+bool isShown(const GuideEvent& event, std::size_t bodies, std::size_t goals) {
+  using Kind = GuideEvent::Kind;
+  const bool kind = event.kind == Kind::kPlaced || event.kind == Kind::kUndone || event.kind == Kind::kDropped;
+  return kind && isPlausible(event, bodies, goals);
+}
+
 /// Replaces indices that name nothing, and numbers that are none.
 Guidance plausible(Guidance told, std::size_t bodies, std::size_t goals) {
   for (std::int32_t* body : {&told.body, &told.hint_body})
@@ -30,17 +47,8 @@ Guidance plausible(Guidance told, std::size_t bodies, std::size_t goals) {
   told.placed = std::clamp(told.placed, 0, told.all);
   for (double* time : {&told.elapsed, &told.finished_at})
     if (!std::isfinite(*time) || *time < 0) *time = 0;
+  if (told.news && !isShown(*told.news, bodies, goals)) told.news.reset();
   return told;
-}
-
-bool isPlausible(const GuideEvent& event, std::size_t bodies, std::size_t goals) {
-  using Kind = GuideEvent::Kind;
-  const bool of_goal = event.kind == Kind::kPlaced || event.kind == Kind::kUndone || event.kind == Kind::kBlocked ||
-                       event.kind == Kind::kHint;
-  const bool of_body = event.kind != Kind::kFinished && event.kind != Kind::kHint;
-  return event.kind <= Kind::kFinished && std::isfinite(event.time) && event.goal < static_cast<std::int32_t>(goals) &&
-         event.body < static_cast<std::int32_t>(bodies) && event.goal >= (of_goal ? 0 : kNoGoal) &&
-         event.body >= (of_body ? 0 : kNoBody);
 }
 
 }  // namespace
@@ -89,11 +97,10 @@ void GuideDesk::show(const Stamp& stamp, const AssemblyState& assembly) noexcept
 
 void GuideDesk::serve(const Stamp& stamp, const AssemblyState& assembly) noexcept {
   if (!post_) return;
+  changes_ = 0;
   read(stamp, assembly);
-  const auto looks = [&] {
-    sleepUntilNs(monotonicNs() + kOrderLook);
-    read(stamp, assembly);
-  };
+  constexpr auto kSilenceNs = static_cast<std::int64_t>(kSilence * 1e9);
+  bool behind = false;
   if (!realtime_) {
     if (const auto go_on = std::exchange(await_, {}))
       while (lead_ == 0 && go_on()) {
@@ -101,10 +108,15 @@ void GuideDesk::serve(const Stamp& stamp, const AssemblyState& assembly) noexcep
         show(stamp, assembly);
         read(stamp, assembly);
       }
-    while (lead_ != 0 && on_ < stamp.sequence && monotonicNs() - heard_ns_ < static_cast<std::int64_t>(kSilence * 1e9))
-      looks();
+    // a guide that missed the publication repeats its last order and would hold the run for ever
+    const std::int64_t until = monotonicNs() + kSilenceNs;
+    while (lead_ != 0 && on_ < stamp.sequence && monotonicNs() - heard_ns_ < kSilenceNs && !behind) {
+      sleepUntilNs(monotonicNs() + kOrderLook);
+      read(stamp, assembly);
+      behind = on_ < stamp.sequence && monotonicNs() >= until;
+    }
   }
-  noteSilence(stamp.time);
+  noteSilence(stamp.time, behind);
 }
 
 void GuideDesk::read(const Stamp& stamp, const AssemblyState& assembly) {
@@ -126,7 +138,8 @@ void GuideDesk::read(const Stamp& stamp, const AssemblyState& assembly) {
 
 OrderRefusal GuideDesk::judge(const GuideOrder& order, const Stamp& stamp) const {
   const auto& goals = scene_.assembly->goals;
-  if (order.guide == led_ && order.number > number_ && order.number - number_ > kFarthest)
+  // one that led before may have gone on counting, unheard
+  if (order.guide == lead_ && order.number > number_ && order.number - number_ > kFarthest)
     return OrderRefusal::kOutOfOrder;
   if (order.on > stamp.sequence || order.undone > orders_.undone + 1) return OrderRefusal::kOutOfOrder;
   if (stamp.sequence - order.on > kOldest) return OrderRefusal::kLate;
@@ -155,31 +168,44 @@ void GuideDesk::obey(const GuideOrder& order, const Stamp& stamp, const Assembly
     GuideOrders::Draw& draw = orders_.draws[g];
     const bool pulls = g < assembly.goals.size() && assembly.goals[g].status != Status::kOpen;
     const bool again = order.draws[g] != kNoBody && !pulls && stamp.sequence - begun_[g] > kAgain;
-    if (order.draws[g] == draw.body && !again) continue;
+    if ((order.draws[g] == draw.body && !again) || changes_ == kMostChanges) continue;
+    ++changes_;
     draw = {order.draws[g], draw.since + 1};
     begun_[g] = stamp.sequence;
   }
-  hear(order);
+  hear(order, stamp.time);
 }
 
 void GuideDesk::follow(const GuideOrder& order, const Stamp& stamp) {
   lead_ = order.guide;
-  if (led_ != lead_) told_ = 0;
+  if (led_ != lead_) {
+    told_ = 0;
+    led_from_ = told_until_;
+  }
   noted_ = {};
   led_ = lead_;
   note(stamp.time, takeovers_++ == 0 ? "a viewer guides the assembly" : "a viewer has taken over the guide");
 }
 
-void GuideDesk::hear(const GuideOrder& order) {
+// A guide that leads again after another one sends its last events once more, and one that has taken over may find all
+// in place once more.
+bool GuideDesk::isNews(const GuideEvent& event) const noexcept {
+  return event.time > led_from_ && !(finish_told_ && event.kind == GuideEvent::Kind::kFinished);
+}
+
+void GuideDesk::hear(const GuideOrder& order, double time) {
+  using Kind = GuideEvent::Kind;
   const std::size_t bodies = scene_.bodies.size(), goals = orders_.draws.size();
   report_.now = plausible(order.says, bodies, goals);
-  if (report_.now.news && !isPlausible(*report_.now.news, bodies, goals)) report_.now.news.reset();
   const std::size_t count = std::min(order.events.size(), GuideOrder::kMaxEvents);
   if (order.told < count) return;
   for (std::size_t i = 0; i < count; ++i) {
     const GuideEvent& event = order.events[order.events.size() - count + i];
-    if (order.told - count + i < told_ || !isPlausible(event, bodies, goals)) continue;
+    if (order.told - count + i < told_ || !isPlausible(event, bodies, goals) || !isNews(event)) continue;
     report_.tell(event);
+    told_until_ = std::max(told_until_, std::min(event.time, time));  // a time to come must not silence a later guide
+    if (event.kind == Kind::kPlaced || event.kind == Kind::kUndone) finish_told_ = false;
+    if (event.kind == Kind::kFinished) finish_told_ = true;
   }
   told_ = std::max(told_, order.told);
 }
@@ -194,8 +220,9 @@ void GuideDesk::refuse(const GuideOrder& order, OrderRefusal refusal, double tim
                  : std::string("an order of a guide was refused: ") + toString(refusal));
 }
 
-void GuideDesk::noteSilence(double time) {
-  if (lead_ == 0 || monotonicNs() - heard_ns_ < static_cast<std::int64_t>(kSilence * 1e9)) return;
+void GuideDesk::noteSilence(double time, bool behind) {
+  const bool silent = behind || monotonicNs() - heard_ns_ >= static_cast<std::int64_t>(kSilence * 1e9);
+  if (lead_ == 0 || !silent) return;
   lead_ = 0;
   ++silences_;
   note(time, "the guide fell silent; the run goes on, no further body is pulled to its goal");

@@ -24,10 +24,13 @@ namespace presa::bus {
 class GuideDesk {
  public:
   using Open = std::function<std::unique_ptr<OrderPost>()>;
-  static constexpr double kSilence = 0.5;         ///< time without orders after which a guide no longer leads [s]
+  /// Time without orders after which a guide no longer leads; in lockstep without one on the newest publication [s].
+  static constexpr double kSilence = 0.5;
   static constexpr std::uint64_t kOldest = 40;    ///< age of the states that an order may decide on [publications]
   static constexpr std::size_t kMostAtOnce = 32;  ///< orders of the guide read at one publication
-  static constexpr double kUndoEvery = 0.2;       ///< shortest time between two undos [simulated s]
+  /// Draws begun or ended at one publication; more wait for the next. A recording takes one for each haptic tick.
+  static constexpr int kMostChanges = 4;
+  static constexpr double kUndoEvery = 0.2;  ///< shortest time between two undos [simulated s]
 
   GuideDesk(const Scene& scene, bool realtime, Open open);
   /// Before the run, in lockstep: the first publication waits for a guide as long as this returns true.
@@ -54,9 +57,10 @@ class GuideDesk {
   OrderRefusal judge(const GuideOrder& order, const Stamp& stamp) const;
   void obey(const GuideOrder& order, const Stamp& stamp, const AssemblyState& assembly);
   void follow(const GuideOrder& order, const Stamp& stamp);
-  void hear(const GuideOrder& order);
+  void hear(const GuideOrder& order, double time);
+  bool isNews(const GuideEvent& event) const noexcept;
   void refuse(const GuideOrder& order, OrderRefusal refusal, double time);
-  void noteSilence(double time);
+  void noteSilence(double time, bool behind);
   void note(double time, const std::string& what);
 
   const Scene& scene_;
@@ -69,6 +73,9 @@ class GuideDesk {
   std::uint64_t number_ = 0, on_ = 0;
   std::int64_t heard_ns_ = 0;
   std::uint64_t told_ = 0;                           // events heard of led_
+  double told_until_ = -1e300, led_from_ = -1e300;   // times of the newest event heard, now and when led_ began [s]
+  bool finish_told_ = false;                         // and nothing placed or undone since
+  int changes_ = 0;                                  // of draws at this publication
   double undone_at_ = -1e300;                        // [s]
   std::vector<std::uint64_t> begun_;                 // by goal: publication at which its draw began
   std::uint64_t taken_ = 0, refused_ = 0;            // orders

@@ -1,6 +1,7 @@
 #include "framework/bus/remote_guide.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "framework/bus/publisher.h"
@@ -13,6 +14,22 @@ using Status = GoalState::Status;
 
 // the status of a publication is sent before its heartbeat, over another topic
 constexpr std::int64_t kStatusWait = 20'000'000, kStatusLook = 100'000;  // [ns]
+constexpr std::uint64_t kFarthestAhead = 1024;  // of a status over the newest heartbeat [publications]
+constexpr std::int32_t kMostUndos = 1'000'000;
+
+/// Whether every index names something and every number is one; the rest of a status cannot do harm.
+bool isSound(const GuideStatus& status, std::size_t bodies) {
+  const auto isIndex = [](std::int32_t i, std::int32_t lowest, std::size_t count) {
+    return i >= lowest && i < static_cast<std::int32_t>(count);
+  };
+  if (!std::isfinite(status.elapsed) || status.elapsed < 0 || status.undone < 0 || status.undone > kMostUndos)
+    return false;
+  const std::vector<GoalState>& goals = status.assembly.goals;
+  return std::ranges::all_of(goals, [&](const GoalState& goal) {
+    return isIndex(goal.body, goal.status == Status::kOpen ? kNoBody : 0, bodies) &&
+           isIndex(goal.missing, kNoGoal, goals.size());
+  });
+}
 
 }  // namespace
 
@@ -30,6 +47,7 @@ RemoteGuide::RemoteGuide(std::shared_ptr<const World> world, std::unique_ptr<Rea
 void RemoteGuide::begin(std::uint64_t run) {
   run_ = run;
   decided_ = 0;
+  assembly_.elapsed = world_->scene.assembly->elapsed;
   status_.reset();
   choice_.reset();
   guide_.reset();
@@ -62,9 +80,19 @@ void RemoteGuide::step(double seconds) {
   if (fresh || monotonicNs() - sent_ns_ > static_cast<std::int64_t>(kRepeat * 1e9)) send();
 }
 
+// A status far ahead would make all genuine ones look old. Before the first heartbeat nobody knows: it is judged then.
+bool RemoteGuide::isFar(const GuideStatus& status) const noexcept {
+  return picture_.sequence() != 0 && status.sequence > picture_.sequence() + kFarthestAhead;
+}
+
 void RemoteGuide::hear() {
+  if (status_ && isFar(*status_)) {
+    status_.reset();
+    choice_.reset();
+  }
   for (GuideStatus& status : sender_->take())
-    if (status.run == run_ && run_ != 0 && (!status_ || status.sequence >= status_->sequence))
+    if (status.run == run_ && run_ != 0 && (!status_ || status.sequence >= status_->sequence) && !isFar(status) &&
+        isSound(status, world_->scene.bodies.size()))
       status_ = std::move(status);
   const std::lock_guard lock(mutex_);
   now_.standing = !status_ || status_->lead == 0 ? Standing::kWaits
@@ -77,6 +105,7 @@ void RemoteGuide::takeOver() {
   assembly_.elapsed = std::max(assembly_.elapsed, status_->elapsed);
   choice_.emplace(assembly_, world_->scene.bodies.size());
   guide_.emplace(assembly_, world_->scene.bodies.size());
+  guide_->resume(status_->assembly);
   order_.on = status_->sequence;
   order_.undone = status_->undone;
   order_.says = guide_->now();

@@ -44,6 +44,7 @@ class RemoteGuide {
   static constexpr std::size_t kMaxNews = 1000;
   static constexpr double kRepeat = 0.1;  // without a publication, the last order is sent again after [s]
   void begin(std::uint64_t run);
+  bool isFar(const GuideStatus& status) const noexcept;
   void hear();
   void takeOver();
   void decide();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
@@ -124,7 +125,7 @@ bool BodyContacts::collideHulls(const BodySet& bodies, const Meeting& of, double
 
 void BodyContacts::report(const BodySet& bodies, const Meeting& of, double same, std::vector<BodyContact>& contacts) {
   const dGeomID b = parallel_boxes_.standIn(bodies.geom(of.shape_B), bodies.geom(of.shape_A));
-  int count = dCollide(b, bodies.geom(of.shape_A), kMaxReported, reported_, sizeof(dContactGeom));
+  int count = collide(b, bodies.geom(of.shape_A), kMaxReported, reported_);
   const auto useless = [](const dContactGeom& contact) {
     return !(contact.depth >= 0) || !(toVec3(contact.normal).squaredNorm() > 0.25) || !toVec3(contact.pos).allFinite();
   };

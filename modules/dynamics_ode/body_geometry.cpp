@@ -6,8 +6,6 @@
 
 namespace presa::ode {
 
-namespace {
-
 std::optional<Hull> polyhedronOf(const PhysicsShape& shape) {
   if (const Box* box = std::get_if<Box>(shape.shape)) return boxHull(box->size);
   if (const Sphere* sphere = std::get_if<Sphere>(shape.shape)) return sphereHull(sphere->radius);
@@ -15,6 +13,8 @@ std::optional<Hull> polyhedronOf(const PhysicsShape& shape) {
   if (const Capsule* rod = std::get_if<Capsule>(shape.shape)) return capsuleHull(rod->radius, rod->length);
   return shape.mesh != nullptr ? meshHull(*shape.mesh) : std::nullopt;
 }
+
+namespace {
 
 double halfDiagonal(const dReal* bounds) {
   return 0.5 * Vec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]).norm();

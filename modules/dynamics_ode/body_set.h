@@ -16,6 +16,9 @@
 
 namespace presa::ode {
 
+/// The shape as a convex polyhedron; none where it is no such mesh: ODE collides it.
+std::optional<Hull> polyhedronOf(const PhysicsShape& shape);
+
 /// The bodies of a scene in one ODE world, in scene order. ODE requires the centre of mass at a body's origin; this
 /// class is the only place that converts poses and velocities between the centre of mass and the body frame B.
 class BodySet {

@@ -84,22 +84,31 @@ dWorldID createWorld(const Vec3& gravity, std::size_t contacts) {
 // lock.
 class OneAtATime {
  public:
-  OneAtATime() {
-    while (taken.test_and_set(std::memory_order_acquire)) taken.wait(true);
+  explicit OneAtATime(std::atomic_flag& taken) : taken_(taken) {
+    while (taken_.test_and_set(std::memory_order_acquire)) taken_.wait(true);
   }
   ~OneAtATime() {
-    taken.clear(std::memory_order_release);
-    taken.notify_one();
+    taken_.clear(std::memory_order_release);
+    taken_.notify_one();
   }
   OneAtATime(const OneAtATime&) = delete;
   OneAtATime& operator=(const OneAtATime&) = delete;
 
  private:
-  static constinit std::atomic_flag taken;
+  std::atomic_flag& taken_;
 };
-constinit std::atomic_flag OneAtATime::taken;
+constinit std::atomic_flag random_numbers_taken, mesh_cache_taken;
+
+bool isMesh(dGeomID geom) { return dGeomGetClass(geom) == dTriMeshClass; }
 
 }  // namespace
+
+int collide(dGeomID one, dGeomID other, int most, dContactGeom* contacts) {
+  if (!isMesh(one) && !isMesh(other)) return dCollide(one, other, most, contacts, sizeof(dContactGeom));
+  // the installed ODE collides all meshes of the process in one cache, whatever their threads
+  const OneAtATime turn(mesh_cache_taken);
+  return dCollide(one, other, most, contacts, sizeof(dContactGeom));
+}
 
 Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
     : world_(createWorld(gravity, contacts)), random_state_(static_cast<unsigned long>(seed)) {
@@ -154,7 +163,7 @@ bool Engine::solveDirectly(double h) {
 void Engine::solveIteratively(double h, int iterations) {
   dWorldSetQuickStepNumIterations(world_, iterations);
   // ODE's random numbers are one global stream: each world saves and restores its own state
-  const OneAtATime turn;
+  const OneAtATime turn(random_numbers_taken);
   dRandSetSeed(random_state_);
   dWorldQuickStep(world_, h);
   random_state_ = dRandGetSeed();

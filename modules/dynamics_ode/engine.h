@@ -25,6 +25,10 @@ void detachThread();
 /// printed.
 std::uint64_t messageCount() noexcept;
 
+/// Writes at most so many contacts of two geometries; their number. Of meshes one call at a time in the process: another
+/// waits, so the haptic thread must not collide meshes beside other threads.
+int collide(dGeomID one, dGeomID other, int most, dContactGeom* contacts);
+
 /// One ODE world with the contact joints of one solve and its own state of ODE's global random numbers. Must be
 /// created, used and destroyed on one thread. Failures inside ODE are thrown as OdeFailure.
 class Engine {

@@ -41,6 +41,20 @@ std::string rigOfMoved(const Setup& setup) {
 
 }  // namespace
 
+/// The only call that acts on the run, as long as this exists.
+class Simulation::Turn {
+ public:
+  explicit Turn(std::atomic_flag& busy) : busy_(busy) {
+    if (busy_.test_and_set(std::memory_order_acquire)) throw std::logic_error("the simulation is being stepped");
+  }
+  ~Turn() { busy_.clear(std::memory_order_release); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::atomic_flag& busy_;
+};
+
 Simulation::Read Simulation::read(const Setup& setup) {
   RunOptions options;
   options.realtime = false;
@@ -88,9 +102,9 @@ Simulation::~Simulation() {
 }
 
 bool Simulation::step(std::uint64_t ticks, const std::function<void()>& pause) {
+  const Turn turn(busy_);
   if (closed_) throw std::logic_error("the simulation is closed");
-  if (!begun_) run_->begin();
-  begun_ = true;
+  if (!begun_) begin();
   if (ticks == 0 || left_ == 0) return left_ > 0;
   for (std::size_t f = 0; f < moved_.size(); ++f) moved_[f]->goTo(Vec3(targets_[f].data()), ticks);
   ticks = std::min(ticks, left_);
@@ -107,9 +121,28 @@ bool Simulation::step(std::uint64_t ticks, const std::function<void()>& pause) {
   return left_ > 0;
 }
 
+void Simulation::begin() {
+  try {
+    run_->begin();
+  } catch (...) {
+    end();
+    throw;
+  }
+  begun_ = true;
+}
+
 void Simulation::close() {
-  if (std::exchange(closed_, true) || !begun_) return;
-  run_->finish();
+  const Turn turn(busy_);
+  end();
+}
+
+// A recording is closed also where no tick was run: it then holds none.
+void Simulation::end() {
+  if (std::exchange(closed_, true)) return;
+  if (begun_)
+    run_->finish();
+  else if (Recorder* recorder = run_->session().recorder())
+    recorder->finish();
 }
 
 void Simulation::press(std::size_t finger, std::uint32_t buttons) {

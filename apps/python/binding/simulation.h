@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -28,7 +29,7 @@ struct Setup {
 };
 
 /// A run in lockstep that its caller steps. Bit for bit the same as `presa run --lockstep` of the same scene, rig, seed
-/// and duration. Thread: one at a time.
+/// and duration. Thread: one at a time; step() and close() refuse a second one, and a call from within `pause`.
 class Simulation {
  public:
   static constexpr double kEndless = 1e6;  ///< [s]
@@ -40,10 +41,11 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Runs so many haptic ticks, or up to the end: then false. Moved fingers are at their targets in the last tick. `pause`
-  /// is called every kPauseTicks ticks; what it throws ends the step.
+  /// is called every kPauseTicks ticks; what it throws ends the step. Throws std::logic_error while another step runs,
+  /// and once closed; what a module throws as the run begins, closes the simulation.
   bool step(
       std::uint64_t ticks, const std::function<void()>& pause = [] {});
-  /// Ends the run and closes the recording; further calls do nothing.
+  /// Ends the run and closes the recording; further calls do nothing. Throws std::logic_error while a step runs.
   void close();
 
   const World& world() const noexcept { return run_->world(); }
@@ -66,8 +68,11 @@ class Simulation {
     Loaded loaded;
     std::vector<std::string> notes;
   };
+  class Turn;
   static Read read(const Setup& setup);
   Simulation(const Setup& setup, Read read);
+  void begin();
+  void end();
 
   RunControl control_;
   std::vector<std::string> notes_;
@@ -78,6 +83,7 @@ class Simulation {
   std::unique_ptr<Run> run_;
   std::uint64_t left_ = 0;  // haptic ticks
   bool begun_ = false, closed_ = false;
+  std::atomic_flag busy_;
 };
 
 }  // namespace presa::python

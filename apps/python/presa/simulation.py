@@ -105,7 +105,7 @@ class Simulation:
         self.targets: NDArray[np.float64] = self._run.targets()
 
     def step(self, ticks: int = 1) -> bool:
-        """Runs so many haptic ticks. False: the run has come to its end."""
+        """Runs so many haptic ticks. False: the run has come to its end. RuntimeError while another thread steps it."""
         return self._run.step(ticks)
 
     def run(self) -> "Simulation":
@@ -119,7 +119,7 @@ class Simulation:
         self._run.press(self.fingers.names.index(finger), sum(1 << button for button in buttons))
 
     def close(self) -> None:
-        """Ends the run and closes its recording."""
+        """Ends the run and closes its recording. RuntimeError while it is being stepped."""
         self._run.close()
 
     def figures(self) -> dict[str, Any]:

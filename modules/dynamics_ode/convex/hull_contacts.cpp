@@ -14,15 +14,15 @@ double radiusOf(const Hull& hull) {
   return radius + hull.radius;
 }
 
+}  // namespace
+
 // Between the corner that it turns to the other body and the next a prism is flatter than its cylinder, by up to 8 % of
 // the radius: a block's corner would sink in there.
-bool fits(const Hull& A, const Hull& B) {
+bool HullContacts::collides(const Hull& A, const Hull& B) {
   if (A.cylinder && B.cylinder) return false;
   if (A.cylinder) return radiusOf(B) > kBroad * radiusOf(A);
   return !B.cylinder || radiusOf(A) > kBroad * radiusOf(B);
 }
-
-}  // namespace
 
 HullContacts::HullContacts(const BodySet& bodies) : placed_(bodies.shapeCount()) {
   std::size_t edges = 0, faces = 0;
@@ -62,7 +62,7 @@ HullContacts::Pair HullContacts::pairOf(const BodySet& bodies, std::size_t A, st
 
 const Manifold* HullContacts::find(const BodySet& bodies, std::size_t A, std::size_t B, double margin) {
   const Hull *hull_A = bodies.hullOf(A), *hull_B = bodies.hullOf(B);
-  if (hull_A == nullptr || hull_B == nullptr || !fits(*hull_A, *hull_B)) return nullptr;
+  if (hull_A == nullptr || hull_B == nullptr || !collides(*hull_A, *hull_B)) return nullptr;
   Memory memory{pairOf(bodies, A, B), {}, {}};
   while (recalled_ < past_.size() && past_[recalled_].pair < memory.pair) ++recalled_;
   if (recalled_ < past_.size() && past_[recalled_].pair == memory.pair) memory = past_[recalled_];

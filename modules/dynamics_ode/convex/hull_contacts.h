@@ -14,6 +14,8 @@ namespace presa::ode {
 /// be asked for in ascending order of their bodies, then of their shapes.
 class HullContacts {
  public:
+  /// Whether find() gives the contact of two such shapes: not of a cylinder and a shape that is not much larger.
+  static bool collides(const Hull& A, const Hull& B);
   explicit HullContacts(const BodySet& bodies);
 
   void beginStep();

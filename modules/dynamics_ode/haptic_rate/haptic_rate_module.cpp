@@ -6,6 +6,7 @@
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
+#include "modules/dynamics_ode/haptic_rate/meshes_of_ode.h"
 #include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
@@ -36,6 +37,7 @@ double radiusOf(const Body& body, const BodyMeshes& meshes) {
 }
 
 std::unique_ptr<Module> create(std::shared_ptr<const World> world, const RunOptions& options) {
+  if (options.realtime) refuseMeshesOfOde(*world);
   return std::make_unique<HapticRateModule>(std::move(world), options.seed);
 }
 

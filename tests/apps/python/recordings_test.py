@@ -37,6 +37,14 @@ class Recordings(unittest.TestCase):
         for finger, role in enumerate(("thumb", "index")):
             np.testing.assert_array_equal(recording.fingers[role]["f_command_W"][:-1], forces[:, finger])
 
+    def test_are_complete_where_no_tick_was_run(self):
+        file = os.path.join(self.folder.name, "empty.h5")
+        simulation = presa.Simulation("config/scenes/cube.xml", record=file)
+        simulation.close()
+        recording = presa.Recording(file)
+        self.assertTrue(recording.complete)
+        self.assertEqual(len(recording.time), 0)
+
     def test_name_columns_units_and_phases(self):
         thumb = presa.Recording(self.file).fingers["thumb"]
         self.assertEqual(thumb.units["depth"], "m")

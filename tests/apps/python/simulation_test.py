@@ -172,6 +172,52 @@ class Threads(unittest.TestCase):
             simulation.step(50_000_000)
         self.assertTrue(simulation.step())
 
+    def test_a_signal_handler_that_closes_is_refused_and_the_step_goes_on(self):
+        # closing would destroy what the step is using; a later close() is the first one
+        simulation = presa.Simulation(CUBE, duration=1e5)
+        refused = []
+
+        def close(*_):
+            try:
+                simulation.close()
+            except RuntimeError as error:
+                refused.append(str(error))
+            raise KeyboardInterrupt
+
+        before = signal.signal(signal.SIGINT, close)
+        try:
+            threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+            with self.assertRaises(KeyboardInterrupt):
+                simulation.step(50_000_000)
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertEqual(refused, ["the simulation is being stepped"])
+        self.assertTrue(simulation.step())
+        simulation.close()
+        with self.assertRaisesRegex(RuntimeError, "closed"):
+            simulation.step()
+
+    def test_another_thread_that_steps_or_closes_is_refused(self):
+        simulation = presa.Simulation(CUBE, duration=1e5)
+        refused = []
+
+        def meddle():
+            while simulation.time == 0:  # the step below has begun
+                pass
+            for call in (simulation.step, simulation.close):
+                try:
+                    call()
+                except RuntimeError as error:
+                    refused.append(str(error))
+            os.kill(os.getpid(), signal.SIGINT)  # ends the step
+
+        thread = threading.Thread(target=meddle)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(50_000_000)
+        thread.join()
+        self.assertEqual(refused, ["the simulation is being stepped"] * 2)
+
 
 if __name__ == "__main__":
     unittest.main()

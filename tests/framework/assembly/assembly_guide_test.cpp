@@ -204,6 +204,23 @@ TEST_F(GuideTest, WhatStoodAtTheStartWasPlacedByNobody) {
   EXPECT_EQ(captions().progress, "3 of 3");
 }
 
+// As after another guide, which has told all of it: fingers on a body in place are no news, and hesitation begins anew.
+TEST_F(GuideTest, WhatStoodWhenItTookOverWasToldBefore) {
+  fill(0, 0);
+  time_ = state_.time = 100;
+  guide_->resume(state_);
+  EXPECT_EQ(guide_->now().placed, 1);
+  hold(0);
+  run(AssemblyGuide::kHesitation - 2 * kPeriod);
+  EXPECT_TRUE(kinds_.empty());
+  EXPECT_EQ(guide_->now().hint_goal, kNoGoal);
+  run(3 * kPeriod);
+  EXPECT_THAT(kinds_, testing::ElementsAre(Kind::kHint));
+  state_.goals[0] = {};
+  step();
+  EXPECT_EQ(kinds_.back(), Kind::kUndone);
+}
+
 TEST_F(GuideTest, PosesAloneTellWhatStands) {
   place(0, 0, 0.03);
   place(1, 0.01, 0.14);  // not at any drum's goal

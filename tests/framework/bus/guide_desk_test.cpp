@@ -50,6 +50,11 @@ class GuideDeskTest : public testing::Test {
     publish();
     return status_.refused_guide == order.guide ? status_.refusal : OrderRefusal::kNone;
   }
+  void waitInSilence() {
+    sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1.05e9 * GuideDesk::kSilence));
+    publish();
+    publish();
+  }
   std::int32_t ordered(std::size_t goal) const { return desk_->orders().draws[goal].body; }
   std::size_t notesAbout(const std::string& word) {
     const std::vector<std::string> notes = desk_->takeNotes();
@@ -178,9 +183,7 @@ TEST_F(GuideDeskTest, ASilentGuideLosesTheLead) {
   publish();
   answerTo(order(kDrumA));
   EXPECT_EQ(notesAbout("a viewer guides the assembly"), 1u);
-  sleepUntilNs(monotonicNs() + static_cast<std::int64_t>(1.05e9 * GuideDesk::kSilence));
-  publish();
-  publish();
+  waitInSilence();
   EXPECT_EQ(status_.lead, 0u);
   EXPECT_EQ(ordered(0), kDrumA);
   EXPECT_EQ(notesAbout("fell silent"), 1u);
@@ -217,6 +220,119 @@ TEST_F(GuideDeskTest, PassesOnWhatTheGuideTells) {
   ASSERT_EQ(desk_->report().told, 3u);
   EXPECT_EQ(desk_->report().events[2].kind, Kind::kDropped);
   EXPECT_EQ(desk_->report().events[1].goal, 1);
+}
+
+// Captions name the body of the news.
+TEST_F(GuideDeskTest, NewsWithoutABodyIsNotShown) {
+  using Kind = GuideEvent::Kind;
+  publish();
+  GuideOrder tells = order();
+  for (const GuideEvent& wrong : {GuideEvent{Kind::kHint, 1, 0, kNoBody}, GuideEvent{Kind::kFinished, 1},
+                                  GuideEvent{Kind::kTaken, 1, kNoGoal, kDrumA}, GuideEvent{Kind::kDropped, 1}}) {
+    tells.number = ++number_;
+    tells.says.news = wrong;
+    answerTo(tells);
+    EXPECT_FALSE(desk_->report().now.news) << static_cast<int>(wrong.kind);
+  }
+  tells.number = ++number_;
+  tells.says.news = GuideEvent{Kind::kDropped, 1, kNoGoal, kDrumA};
+  answerTo(tells);
+  EXPECT_TRUE(desk_->report().now.news);
+}
+
+// A guide that was not heard for long, as while the run was paused, has gone on counting.
+TEST_F(GuideDeskTest, AGuideThatCountedOnUnheardLeadsAgain) {
+  publish();
+  answerTo(order(kDrumA));
+  number_ += 100000;
+  EXPECT_EQ(answerTo(order(kDrumB)), OrderRefusal::kOutOfOrder) << "as long as it leads, such a number may be forged";
+  waitInSilence();
+  EXPECT_EQ(status_.lead, 0u);
+  answerTo(order(kDrumB));
+  EXPECT_EQ(status_.lead, kGuide);
+  EXPECT_EQ(ordered(0), kDrumB);
+}
+
+// The first guide leads again after another: what it told before, and what the other one told, is not told once more.
+TEST_F(GuideDeskTest, EventsAreToldOnceWhateverGuideLeads) {
+  using Kind = GuideEvent::Kind;
+  publish();
+  GuideOrder first = order();
+  first.events = {{Kind::kTaken, 0.001, kNoGoal, kDrumA}, {Kind::kPlaced, 0.002, 0, kDrumA}};
+  first.told = 2;
+  answerTo(first);
+  waitInSilence();
+  GuideOrder second = order();
+  second.guide = kOther;
+  second.events = {{Kind::kPlaced, 0.004, 1, kCapital}, {Kind::kFinished, 0.004}};
+  second.told = 2;
+  answerTo(second);
+  EXPECT_EQ(desk_->report().told, 4u);
+  waitInSilence();
+  first.number = ++number_;
+  first.on = sequence_;
+  first.events.push_back({Kind::kFinished, 0.01});
+  first.events.push_back({Kind::kUndone, 0.01, 1, kCapital});
+  first.told = 4;
+  answerTo(first);
+  ASSERT_EQ(desk_->report().told, 5u);
+  EXPECT_EQ(desk_->report().events[4].kind, Kind::kUndone);
+  first.number = ++number_;
+  first.on = sequence_;
+  first.events.push_back({Kind::kPlaced, 0.02, 1, kCapital});
+  first.events.push_back({Kind::kFinished, 0.02});
+  first.told = 6;
+  answerTo(first);
+  EXPECT_EQ(desk_->report().told, 7u) << "all stands once more";
+}
+
+// A recording keeps up with the changes of draws: one for each haptic tick. The rest of an order waits.
+TEST_F(GuideDeskTest, ManyDrawsBeginOneAfterTheOther) {
+  const int many = 2 * GuideDesk::kMostChanges + 1;
+  scene_.bodies.resize(static_cast<std::size_t>(many));
+  scene_.assembly->goals.clear();
+  for (std::size_t g = 0; g < scene_.bodies.size(); ++g)
+    scene_.assembly->goals.push_back({.name = "goal", .bodies = {g}, .X_WB = {}, .after = {}});
+  state_.goals.resize(scene_.bodies.size());
+  desk_ = std::make_unique<GuideDesk>(scene_, true, [this] { return bus_.orderPost(); });
+  desk_->start(kGuidedRun);
+  publish();
+  for (const int begun : {GuideDesk::kMostChanges, 2 * GuideDesk::kMostChanges, many}) {
+    GuideOrder all = order();
+    all.draws.clear();
+    for (std::int32_t body = 0; body < many; ++body) all.draws.push_back(body);
+    sender_->send(all);
+    publish();
+    EXPECT_EQ(std::ranges::count_if(desk_->orders().draws, [](const auto& draw) { return draw.body != kNoBody; }),
+              begun);
+  }
+}
+
+/// Repeats an order on the first publication whenever it is asked, as a guide that missed all others.
+class BehindPost final : public OrderPost {
+ public:
+  static constexpr int kAtMost = 200'000;  // 10 s of the desk's looks, so that the test ends
+  explicit BehindPost(int& asked) : asked_(asked) {}
+  void show(const GuideStatus&) noexcept override {}
+  std::vector<GuideOrder> take() override {
+    if (++asked_ > kAtMost) return {};
+    GuideOrder order{kGuidedRun, kGuide, static_cast<std::uint64_t>(asked_), 1};
+    order.draws = {kNoBody, kNoBody};
+    return {order};
+  }
+
+ private:
+  int& asked_;
+};
+
+TEST_F(GuideDeskTest, AGuideThatStaysBehindDoesNotHoldALockstepRun) {
+  int asked = 0;
+  GuideDesk desk(scene_, false, [&] { return std::make_unique<BehindPost>(asked); });
+  desk.start(kGuidedRun);
+  desk.serve({kGuidedRun, 1, 0.005, 0}, state_);
+  desk.serve({kGuidedRun, 2, 0.01, 0}, state_);
+  EXPECT_LT(asked, BehindPost::kAtMost);
+  EXPECT_NE(desk.summary().find("1 times silent"), std::string::npos) << desk.summary();
 }
 
 }  // namespace
