@@ -17,8 +17,8 @@ namespace presa::bus {
 /// Publishes every free body and finger of a run once per tick of the bus group. Only reads its ports, which the haptic
 /// thread fills wait-free. Ports, all optional: device_state, contact_exchange, force_command, object_state; only when
 /// the rig has frames also frame_state; only when the run takes commands (RunOptions::bus_commands) also the out port
-/// surface_settings to the haptic thread; only when its guide is in a viewer (RunOptions::guide) assembly_state, and the
-/// out ports guide_orders and guide_report.
+/// surface_settings to the haptic thread; only when its guide is in a viewer (RunOptions::guide) assembly_state, and
+/// the out ports guide_orders and guide_report.
 class Publisher final : public Module, public Commandable, public Guidable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;

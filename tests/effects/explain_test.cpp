@@ -138,7 +138,7 @@ TEST(Explain, SaysInWhichFramesADeviceStands) {
   EXPECT_TRUE(explain(source("config/scenes/cube.xml"))["devices"][0]["frames"].empty());
 }
 
-// What a user may do with frames, and what a view draws of bodies with textures: in text and JSON, only where there is some.
+// What a user may do with frames, and what a view draws of bodies with textures: in text and JSON, only where they are.
 TEST(Explain, OnlyRigsAndScenesWithThemTellOfMovedFramesAndModels) {
   const std::string cube = source("config/scenes/cube.xml"),
                     clutched = cube + " --rig " + source("config/rigs/clutch_pair.xml");

@@ -112,8 +112,8 @@ TEST(Publisher, CarriesTheStatesOfTheRun) {
   EXPECT_EQ(picture.health().lost, 0u);
 }
 
-// A rig with a clutch: a viewer, whose own rig is only what the run's information says of it, has the frames to the bit and
-// says the same of them. One period behind, so that each picture is a published moment.
+// A rig with a clutch: a viewer, whose own rig is only what the run's information says of it, has the frames to the bit
+// and says the same of them. One period behind, so that each picture is a published moment.
 TEST(Publisher, CarriesTheFramesOfTheRig) {
   StudySpec spec = cube();
   spec.rig = std::string(PRESA_SOURCE_DIR) + "/config/rigs/clutch_pair.xml";

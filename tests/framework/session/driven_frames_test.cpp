@@ -184,8 +184,8 @@ TEST(DrivenFrames, ARestlessUserGetsNoStepAndNoEnergy) {
 }
 
 // A finger presses on a table from a desk on a tool, whose tracker is lost for a second, in which the tool goes 100 mm
-// along the table and 1 mm down: the desk stands still, then follows without a jump, and the finger keeps touching. What
-// the hand gets in a tick is within the slew limit, and no sample is rejected.
+// along the table and 1 mm down: the desk stands still, then follows without a jump, and the finger keeps touching.
+// What the hand gets in a tick is within the slew limit, and no sample is rejected.
 TEST(DrivenFrames, AFingerInContactFeelsNoStepWhenTheToolOfItsFrameIsLostAndFound) {
   const std::string tool = write("lost_tool.csv",
                                  "time_s,role,x_m,y_m,z_m\n0,index,0,0,0.4\n1.5,index,0,0,0.4\n2.2,index,0.1,0,0.399\n"

@@ -75,8 +75,8 @@ double directionOf(const std::vector<Eigen::Vector2d>& points) {
   return std::atan2(sum.y(), sum.x());
 }
 
-// An axis is symmetric about its direction: the mean of its pixels is on it, to a tenth of a pixel (0.06 mm) at 30 mm, and
-// as much for the light on its round shape.
+// An axis is symmetric about its direction: the mean of its pixels is on it, to a tenth of a pixel (0.06 mm) at 30 mm,
+// and as much for the light on its round shape.
 TEST(ShownFrames, TheAxesOfAFramePointAsItDoes) {
   const PngPicture picture = drawDesk("axes", {"frames", "no-visual"}, 0);
   const auto x = axisIn(picture, isRedAxis), y = axisIn(picture, isGreenAxis);
@@ -86,7 +86,7 @@ TEST(ShownFrames, TheAxesOfAFramePointAsItDoes) {
   EXPECT_NEAR(directionOf(y), kYaw + std::numbers::pi / 2, 0.01);
   double reach = 0;
   for (const auto& p : x) reach = std::max(reach, p.norm());
-  // an axis is 60 mm long; its tip, a cone of 12 mm with a radius of 2.2 mm, is thinner than a pixel (0.55 mm) for 1.5 mm
+  // an axis is 60 mm long; its tip, a cone of 12 mm with a radius of 2.2 mm, is thinner than a pixel, 0.55 mm, for 1.5
   EXPECT_NEAR(reach, 0.06, 1.5e-3 + 0.55e-3);
 }
 
@@ -98,8 +98,8 @@ TEST(ShownFrames, OnlyWhereAskedFor) {
   }
 }
 
-// The sentence needs no `--show`: it stands in the upper part of the picture, its middle in the middle, and nothing else
-// of the picture changes. It is 37 letters of 0.602 x 18 lines, of the picture's 720, within its panel.
+// The sentence needs no `--show`: it stands in the upper part of the picture, its middle in the middle, and nothing
+// else of the picture changes. It is 37 letters of 0.602 x 18 lines, of the picture's 720, within its panel.
 TEST(ShownFrames, TheSentenceIsOnScreenWhileAFrameSlides) {
   const PngPicture calm = drawDesk("calm", {}, 0, PictureOptions::Hud::kFull),
                    again = drawDesk("again", {}, 0, PictureOptions::Hud::kFull),

@@ -7,9 +7,9 @@
 namespace presa {
 namespace {
 
-/// A scripted finger whose hand presses buttons 1 (clutch), 2 and 3 (zoom) at random between two times, that may have no
-/// samples between two others, and that measures what its device does to it: in the device's own frame, after everything
-/// that the framework does to a force.
+/// A scripted finger whose hand presses buttons 1 (clutch), 2 and 3 (zoom) at random between two times, that may have
+/// no samples between two others, and that measures what its device does to it: in the device's own frame, after
+/// everything that the framework does to a force.
 class RestlessFinger final : public WrappedDevice {
  public:
   struct Lost {
