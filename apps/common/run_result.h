@@ -80,10 +80,11 @@ struct RunResult {
   std::optional<Assembly> assembly;                 ///< none: the scene has none
   std::vector<Phase> phases;                        ///< empty for a real hand
   const BoundedList<TraceSample>* trace = nullptr;  ///< null: none
-  /// A frame of the rig that its user may move.
+  /// A frame of the rig that its user may move, or whose tool was lost.
   struct DrivenFrame {
     std::string name;
     std::uint32_t uses = 0, refusals = 0;  ///< walks, clutches and zooms begun, and those that a force held up
+    std::uint32_t losses = 0;              ///< of the tool that carries it
     double zoom = 1;                       ///< at the end
   };
   std::vector<DrivenFrame> frames;

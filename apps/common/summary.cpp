@@ -212,8 +212,11 @@ std::string summaryJson(const RunResult& result) {
   json["coverage_lost"] = {{"ticks", result.coverage_lost.count}, {"first_s", timeOrNull(result.coverage_lost.first)}};
   json["objects"] = objects(result);
   for (const RunResult::DrivenFrame& frame : result.frames)
-    json["frames"].push_back(
-        {{"name", frame.name}, {"uses", frame.uses}, {"held_up", frame.refusals}, {"zoom", frame.zoom}});
+    json["frames"].push_back({{"name", frame.name},
+                              {"uses", frame.uses},
+                              {"held_up", frame.refusals},
+                              {"lost", frame.losses},
+                              {"zoom", frame.zoom}});
   if (result.joints != nullptr) json["joints"] = joints(*result.joints);
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};

@@ -343,9 +343,9 @@ void TerminalRun::takeFrames() {
   if (watch == nullptr) return;
   for (std::size_t n = 0; n < watch->last().frames.size(); ++n) {
     const Frame& frame = run_->world().rig.frames[n];
-    if (!frame.driven()) continue;
     const FrameNow& last = watch->last().frames[n];
-    result_.frames.push_back({frame.name, last.uses, last.refusals, last.zoom});
+    if (!frame.driven() && last.losses == 0) continue;
+    result_.frames.push_back({frame.name, last.uses, last.refusals, last.losses, last.zoom});
     result_.notes.push_back(frameSummary(frame, last));
   }
 }

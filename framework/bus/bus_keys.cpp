@@ -25,8 +25,8 @@ struct Part {
 };
 
 std::vector<Part> parts() {
-  const std::vector<std::string> state{"presa_object_state", "presa_device_state", "presa_beat", "presa_event",
-                                       "presa_scene"};
+  const std::vector<std::string> state{"presa_object_state", "presa_device_state", "presa_beat",
+                                       "presa_event",        "presa_scene",        "presa_frame_state"};
   const std::vector<std::string> walls{"presa_wall_frame", "presa_wall_drawn"};  // of viewers that form a CAVE
   const auto with = [](std::vector<std::string> topics, std::initializer_list<const char*> more) {
     topics.insert(topics.end(), more.begin(), more.end());

@@ -11,6 +11,7 @@ struct Deliver {
   void operator()(const RunInfo& run) const { listener.onRun(run, at_ns); }
   void operator()(const ObjectSample& sample) const { listener.onObject(sample, at_ns); }
   void operator()(const FingerSample& sample) const { listener.onFinger(sample, at_ns); }
+  void operator()(const FrameSample& sample) const { listener.onFrame(sample, at_ns); }
   void operator()(const Heartbeat& heartbeat) const { listener.onHeartbeat(heartbeat, at_ns); }
   void operator()(const Event& event) const { listener.onEvent(event, at_ns); }
 };

@@ -13,7 +13,7 @@ namespace presa::bus {
 /// haptic thread.
 class Inbox {
  public:
-  using Item = std::variant<ObjectSample, FingerSample, Heartbeat, Event, RunInfo>;
+  using Item = std::variant<ObjectSample, FingerSample, FrameSample, Heartbeat, Event, RunInfo>;
 
   /// When `capacity` samples are waiting, new ones are discarded and counted in overrun().
   explicit Inbox(std::size_t capacity) : capacity_(capacity) {}

@@ -42,6 +42,7 @@ class LocalBus::LocalWriter final : public Writer {
     const std::lock_guard lock(hub_->mutex);
     for (const ObjectSample& sample : snapshot.objects) hub_->send(sample);
     for (const FingerSample& sample : snapshot.fingers) hub_->send(sample);
+    for (const FrameSample& sample : snapshot.frames) hub_->send(sample);
     hub_->send(snapshot.heartbeat);
     return 0;
   }
@@ -66,6 +67,7 @@ class LocalBus::LocalReader final : public Reader {
     const std::lock_guard lock(hub_->mutex);
     std::erase(hub_->inboxes, &inbox_);
   }
+  void expectFrames() override {}
   void take(Listener& listener) override { inbox_.take(listener); }
   void wait(double seconds) override { inbox_.wait(seconds); }
   std::uint64_t overrun() const override { return inbox_.overrun(); }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "framework/bus/mesh_store.h"
+#include "framework/bus/rig_frames.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/core/schedule/clock.h"
 #include "framework/core/schedule/rates.h"
@@ -41,6 +42,7 @@ Publisher::Publisher(std::shared_ptr<const World> world, const RunOptions& optio
   if (options.bus_commands) server_ = std::make_unique<Server>(*this, world_->scene, std::move(open_post));
   if (options.guide == RunOptions::Guide::kViewer && world_->scene.assembly)
     guide_ = std::make_unique<GuideEnd>(*this, world_->scene, realtime_, std::move(open_orders));
+  if (!world_->rig.frames.empty()) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
   const auto& bodies = world_->scene.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].fixed) continue;  // its pose is in the scene
@@ -67,7 +69,8 @@ void Publisher::start() {
   run_ = newRunId();
   const Scene& scene = world_->scene;
   writer_->announce({run_, sceneHash(*world_), RateTable(scene.rates).period(RateGroup::kBus), realtime_, scene.name,
-                     scene.resolved_xml, server_ != nullptr, sumsOfMeshes(scene), guide_ != nullptr});
+                     scene.resolved_xml, server_ != nullptr, sumsOfMeshes(scene), guide_ != nullptr,
+                     rigFrames(world_->rig), placesOf(*world_)});
   if (server_) server_->server.start(run_);
   if (guide_) guide_->desk.start(run_);
 }
@@ -77,12 +80,13 @@ void Publisher::step(const Tick& tick) noexcept {
   heartbeat_.stamp = stamp;
   fillObjects(stamp);
   fillFingers(stamp);
+  if (frames_) fillFrames(stamp);
   heartbeat_.objects = static_cast<std::int32_t>(object_samples_.size());
   heartbeat_.fingers = static_cast<std::int32_t>(finger_samples_.size());
   heartbeat_.output_status = command_->status;
   heartbeat_.object_faults = objects_->faults;
   if (guide_) guide_->desk.show(stamp, guide_->assembly.value());
-  heartbeat_.refused += writer_->publish({object_samples_, finger_samples_, heartbeat_});
+  heartbeat_.refused += writer_->publish({object_samples_, finger_samples_, heartbeat_, frame_samples_});
   publishEvents(stamp);
   if (guide_) guide_->serve(stamp);
   if (!server_) return;
@@ -100,7 +104,8 @@ void Publisher::stop() {
   heartbeat_.last = true;
   for (ObjectSample& sample : object_samples_) sample.stamp = stamp;
   for (FingerSample& sample : finger_samples_) sample.stamp = stamp;
-  writer_->publish({object_samples_, finger_samples_, heartbeat_});
+  for (FrameSample& sample : frame_samples_) sample.stamp = stamp;
+  writer_->publish({object_samples_, finger_samples_, heartbeat_, frame_samples_});
   writer_->finish();
   writer_.reset();
 }
@@ -133,6 +138,13 @@ void Publisher::fillFingers(const Stamp& stamp) noexcept {
     if (finger < contact_->count()) sample.contact = contact_->fingers[f];
     if (finger < command_->count()) sample.f_H_W = command_->f_H_W[f], sample.t_H_W = command_->t_H_W[f];
   }
+}
+
+void Publisher::fillFrames(const Stamp& stamp) noexcept {
+  if (!frames_->hasValue()) return;
+  const auto& frames = frames_->value().frames;
+  frame_samples_.resize(frames.size());
+  for (std::size_t n = 0; n < frames.size(); ++n) frame_samples_[n] = {stamp, static_cast<std::int32_t>(n), frames[n]};
 }
 
 // Publishes newly latched output faults and newly frozen bodies.

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/bus/guide_desk.h"
@@ -15,8 +16,9 @@ namespace presa::bus {
 
 /// Publishes every free body and finger of a run once per tick of the bus group. Only reads its ports, which the haptic
 /// thread fills wait-free. Ports, all optional: device_state, contact_exchange, force_command, object_state; only when
-/// the run takes commands (RunOptions::bus_commands) also the out port surface_settings to the haptic thread; only when
-/// its guide is in a viewer (RunOptions::guide) assembly_state, and the out ports guide_orders and guide_report.
+/// the rig has frames also frame_state; only when the run takes commands (RunOptions::bus_commands) also the out port
+/// surface_settings to the haptic thread; only when its guide is in a viewer (RunOptions::guide) assembly_state, and
+/// the out ports guide_orders and guide_report.
 class Publisher final : public Module, public Commandable, public Guidable {
  public:
   using Open = std::function<std::unique_ptr<Writer>()>;
@@ -51,6 +53,7 @@ class Publisher final : public Module, public Commandable, public Guidable {
 
   void fillObjects(const Stamp& stamp) noexcept;
   void fillFingers(const Stamp& stamp) noexcept;
+  void fillFrames(const Stamp& stamp) noexcept;
   void publishEvents(const Stamp& stamp) noexcept;
 
   std::shared_ptr<const World> world_;
@@ -63,11 +66,14 @@ class Publisher final : public Module, public Commandable, public Guidable {
   In<ForceCommand> command_{*this, "force_command", In<ForceCommand>::Optional{}};
   In<ObjectState> objects_{*this, "object_state", In<ObjectState>::Optional{}};
 
+  std::optional<In<FrameState>> frames_;  // only where the rig has some
+
   std::unique_ptr<Writer> writer_;
   std::uint64_t run_ = 0;
   Heartbeat heartbeat_;
   std::vector<ObjectSample> object_samples_;
   std::vector<FingerSample> finger_samples_;
+  std::vector<FrameSample> frame_samples_;  // none before the first state
   std::uint32_t reported_status_ = 0, reported_faults_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "framework/bus/rig_frames.h"
 #include "framework/bus/scene_hash.h"
 #include "framework/device/output_stage.h"
 
@@ -38,7 +39,11 @@ const char* wordsOf(const Event& event) {
 
 }  // namespace
 
-RemotePicture::RemotePicture(const World& world) : hash_(sceneHash(world)), fingers_(world.scene.devices.size()) {
+RemotePicture::RemotePicture(const World& world)
+    : hash_(sceneHash(world)),
+      rig_(rigFrames(world.rig)),
+      fingers_(world.scene.devices.size()),
+      frames_(world.rig.frames.size()) {
   for (const Body& body : world.scene.bodies) start_.push_back(body.X_WB);
   objects_.resize(start_.size());
 }
@@ -72,6 +77,7 @@ void RemotePicture::beginRun(const RunInfo& run) noexcept {
   wrong_scene_ = run.scene_hash != hash_;
   objects_.assign(start_.size(), {});
   fingers_.assign(fingers_.size(), {});
+  frames_.assign(run.frames == rig_ ? rig_.size() : 0, {});
   heartbeats_ = {};
   clock_known_ = false;
   time_ = newest_ = 0;
@@ -156,6 +162,12 @@ void RemotePicture::onFinger(const FingerSample& sample, std::int64_t received_n
   if (finger < fingers_.size()) keep(fingers_[finger], sample, received_ns);
 }
 
+void RemotePicture::onFrame(const FrameSample& sample, std::int64_t received_ns) {
+  if (!follows(sample.stamp, received_ns)) return;
+  const auto frame = static_cast<std::size_t>(sample.frame);
+  if (frame < frames_.size()) keep(frames_[frame], sample, received_ns);
+}
+
 void RemotePicture::onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) {
   if (!follows(heartbeat.stamp, received_ns)) {
     if (wrong_scene_ && heartbeat.last && heartbeat.stamp.run == run_.run) state_ = State::kEnded;
@@ -234,6 +246,19 @@ void RemotePicture::fill(ObjectState& objects, DeviceState& device, ContactExcha
   const Heartbeat* heartbeat = heartbeats_.around(time_).first;
   command.status = heartbeat != nullptr ? heartbeat->output_status : 0;
   objects.faults = heartbeat != nullptr ? heartbeat->object_faults : 0;
+}
+
+void RemotePicture::fill(FrameState& frames) const {
+  frames.time = time_;
+  frames.frames.clear();
+  for (const Track<FrameSample>& track : frames_) {
+    const auto [before, after] = track.around(time_);
+    if (before == nullptr && after == nullptr) return frames.frames.clear();
+    FrameNow& now = frames.frames.emplace_back(before != nullptr ? before->now : after->now);
+    if (before == nullptr || after == nullptr) continue;
+    const double share = (time_ - before->stamp.time) / (after->stamp.time - before->stamp.time);
+    if (share > 0) now.X_WF = interpolate(before->now.X_WF, after->now.X_WF, std::min(share, 1.0));
+  }
 }
 
 RemotePicture::Health RemotePicture::health() const noexcept {

@@ -33,6 +33,7 @@ class RemotePicture final : public Listener {
   void onRun(const RunInfo& run, std::int64_t received_ns) override;
   void onObject(const ObjectSample& sample, std::int64_t received_ns) override;
   void onFinger(const FingerSample& sample, std::int64_t received_ns) override;
+  void onFrame(const FrameSample& sample, std::int64_t received_ns) override;
   void onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) override;
   void onEvent(const Event& event, std::int64_t received_ns) override;
 
@@ -55,8 +56,11 @@ class RemotePicture final : public Listener {
   /// The states of the picture: every body, and every finger from which a sample has arrived.
   void fill(ObjectState& objects, DeviceState& device, ContactExchange& contact, ForceCommand& command) const noexcept;
 
+  /// The frames of the rig; none before the first samples, and of a run whose rig has others than the viewer's world.
+  void fill(FrameState& frames) const;
+
   struct Health {
-    std::uint64_t received = 0;  ///< samples of objects, fingers and heartbeats, without duplicates
+    std::uint64_t received = 0;  ///< samples of objects, fingers, frames and heartbeats, without duplicates
     std::uint64_t lost = 0, doubled = 0, late = 0;
     std::uint64_t refused = 0;      ///< discarded by the sender
     std::uint64_t resumed = 0;      ///< number of times that the bus came back
@@ -94,12 +98,14 @@ class RemotePicture final : public Listener {
 
   std::vector<Pose> start_;  // by body of the scene
   std::uint64_t hash_;
+  std::vector<RigFrame> rig_;  // frames of the viewer's world
   State state_ = State::kWaiting;
   bool wrong_scene_ = false;
   RunInfo run_;      // the run that is followed
   RunInfo waiting_;  // announced while another run is followed
   std::vector<Track<ObjectSample>> objects_;
   std::vector<Track<FingerSample>> fingers_;
+  std::vector<Track<FrameSample>> frames_;
   Track<Heartbeat> heartbeats_;
   Health counted_;
   DurationHistogram latency_;

@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "framework/core/math/spatial.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
+#include "framework/scene/frame_state.h"
 
 /// The messages on the bus. They carry whole states and values, never differences, so that any message may be lost,
 /// duplicated or late. SI units, world frame.
@@ -41,6 +43,13 @@ struct FingerSample {
   FingerContact contact;
   Vec3 f_H_W = Vec3::Zero();  ///< force on the finger after the output stage [N]
   Vec3 t_H_W = Vec3::Zero();  ///< torque [N m]
+};
+
+/// One frame of the run's rig. Key: frame. Only of a rig with frames.
+struct FrameSample {
+  Stamp stamp;
+  std::int32_t frame = -1;  ///< index into RunInfo::frames
+  FrameNow now;
 };
 
 /// Heartbeat: ends each publication and carries the values that belong to no object or finger.
@@ -95,6 +104,13 @@ struct OpenParameter {
   std::int32_t of = 0;  ///< number of open parameters of this run
 };
 
+/// What a viewer needs to know of a <frame>.
+struct RigFrame {
+  std::string name, parent;  ///< as Frame
+  bool zooms = false;        ///< it has a scale
+  bool operator==(const RigFrame&) const = default;
+};
+
 /// Static information on a run; kept for late viewers.
 struct RunInfo {
   std::uint64_t run = 0;
@@ -108,7 +124,9 @@ struct RunInfo {
   /// viewer looks up the files among its own (takeFromMeshStore) and opens no path received over the bus. Empty when
   /// the scene has no meshes.
   std::string mesh_sums{};
-  bool guide = false;  ///< the guide of the scene's assembly is to be in a viewer (guide_link.h)
+  bool guide = false;                 ///< the guide of the scene's assembly is to be in a viewer (guide_link.h)
+  std::vector<RigFrame> frames{};     ///< of the rig; empty: none
+  std::vector<std::string> places{};  ///< frame in which the device of each role stands; empty without frames
 };
 
 /// One publication. The spans are only valid during the call.
@@ -116,6 +134,7 @@ struct Snapshot {
   std::span<const ObjectSample> objects;
   std::span<const FingerSample> fingers;
   Heartbeat heartbeat;
+  std::span<const FrameSample> frames{};
 };
 
 }  // namespace presa::bus

@@ -32,6 +32,7 @@ class Listener {
   virtual void onRun(const RunInfo& run, std::int64_t received_ns) = 0;
   virtual void onObject(const ObjectSample& sample, std::int64_t received_ns) = 0;
   virtual void onFinger(const FingerSample& sample, std::int64_t received_ns) = 0;
+  virtual void onFrame(const FrameSample&, std::int64_t) {}
   virtual void onHeartbeat(const Heartbeat& heartbeat, std::int64_t received_ns) = 0;
   virtual void onEvent(const Event& event, std::int64_t received_ns) = 0;
 };
@@ -40,6 +41,8 @@ class Listener {
 class Reader {
  public:
   virtual ~Reader() = default;
+  /// From now on also frames of the rig: call it for a run that has some. Throws InputError E720.
+  virtual void expectFrames() = 0;
   /// Passes everything that has arrived since the last call to the listener; does not wait.
   virtual void take(Listener& listener) = 0;
   /// Waits until something has arrived, at most `seconds`.

@@ -15,6 +15,9 @@ class TroubledReader::Filter final : public Listener {
   void onFinger(const FingerSample& sample, std::int64_t at) override {
     pass([=](Listener& to) { to.onFinger(sample, at); });
   }
+  void onFrame(const FrameSample& sample, std::int64_t at) override {
+    pass([=](Listener& to) { to.onFrame(sample, at); });
+  }
   void onHeartbeat(const Heartbeat& heartbeat, std::int64_t at) override {
     pass([=](Listener& to) { to.onHeartbeat(heartbeat, at); });
   }

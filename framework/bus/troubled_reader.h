@@ -18,6 +18,7 @@ class TroubledReader final : public Reader {
   };
   TroubledReader(std::unique_ptr<Reader> reader, Trouble trouble, std::uint64_t seed);
   ~TroubledReader() override;
+  void expectFrames() override { reader_->expectFrames(); }
   void take(Listener& listener) override;
   void wait(double seconds) override { reader_->wait(seconds); }
   std::uint64_t overrun() const override { return reader_->overrun(); }

@@ -91,9 +91,15 @@ FrameMotion FrameTree::inParent(const Node& node, double time) const noexcept {
 FrameMotion FrameTree::at(int frame, double time) const noexcept {
   if (frame == kWorld) return {};
   const auto index = static_cast<std::size_t>(frame);
-  if (index < tools_.size()) return tools_[index];
+  if (index < tools_.size()) return tools_[index].motion();
   const Node& node = nodes_[index - tools_.size()];
   return at(node.parent, time) * inParent(node, time);
+}
+
+bool FrameTree::known(int frame) const noexcept {
+  if (frame == kWorld) return true;
+  const auto index = static_cast<std::size_t>(frame);
+  return index < tools_.size() ? tools_[index].known() : known(nodes_[index - tools_.size()].parent);
 }
 
 /// Motion of a frame in a node above it; none if a tool is between them.
@@ -182,7 +188,12 @@ void FrameTree::tell(double time, FrameState& state) const noexcept {
   for (std::size_t n = 0; n < nodes_.size() && n < state.frames.size(); ++n) {
     const FrameMotion motion = at(static_cast<int>(tools_.size() + n), time);
     FrameNow& now = state.frames[n];
-    if (nodes_[n].drive) now = nodes_[n].drive->motion.now();
+    now = nodes_[n].drive ? nodes_[n].drive->motion.now() : FrameNow();
+    if (const auto tool = static_cast<std::size_t>(nodes_[n].parent);
+        nodes_[n].parent != kWorld && tool < tools_.size()) {
+      now.doing |= (tools_[tool].lost() ? kFrameLost : 0U) | (tools_[tool].returns() ? kFrameReturns : 0U);
+      now.losses = tools_[tool].losses();
+    }
     now.X_WF = motion.X_WF;
     now.zoom = motion.scale;
   }

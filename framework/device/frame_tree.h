@@ -9,12 +9,13 @@
 #include "framework/device/frame_drive.h"
 #include "framework/device/frame_motion.h"
 #include "framework/device/sample_check.h"
+#include "framework/device/tool_watch.h"
 #include "framework/scene/scene.h"
 
 namespace presa {
 
 /// The frames of a rig (figure 8 of the PERCRO paper: user, head, device): fixed, moved through keys, moved by their user
-/// (FrameDrive), or carried by the tool of a role. A frame on a tool sees the newest sample of that tool.
+/// (FrameDrive), or carried by the tool of a role. A frame on a tool follows the newest sample of that tool (ToolWatch).
 /// Thread: haptic, except for construction; nonblocking.
 class FrameTree {
  public:
@@ -32,7 +33,14 @@ class FrameTree {
 
   /// Motion of a frame at `time` [s]. The index is that of find().
   FrameMotion at(int frame, double time) const noexcept;
-  void setTool(std::size_t role, const FrameMotion& tool) noexcept { tools_[role] = tool; }
+  /// The newest sample of a tool that carries something; `valid`: it is one.
+  void track(std::size_t role, const FrameMotion& tool, bool valid, double time) noexcept {
+    tools_[role].update(tool, valid, time);
+  }
+  /// For pictures: there the tool is.
+  void setTool(std::size_t role, const FrameMotion& tool) noexcept { tools_[role].put(tool); }
+  /// Whether it is known where a frame is: not before the first sample of the tool that carries it.
+  bool known(int frame) const noexcept;
 
   /// The sample of a driven role's device, in its own frame. The first one of a tick moves the frames that it is in.
   void sampled(std::size_t role, const FingerInput& sample, const Tick& tick) noexcept;
@@ -85,7 +93,7 @@ class FrameTree {
 
   std::vector<std::string> roles_;
   std::vector<Node> nodes_;                 // find() gives them indices from roles_.size() on
-  std::vector<FrameMotion> tools_;          // by role
+  std::vector<ToolWatch> tools_;            // by role
   std::vector<char> carries_;               // by role
   std::vector<int> stands_;                 // by role: frame of its device
   std::vector<std::vector<SeatOf>> seats_;  // by role

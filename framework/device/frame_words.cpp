@@ -19,7 +19,9 @@ std::string counted(std::uint32_t count, const std::string& one) {
 }  // namespace
 
 std::string frameSentence(const Frame& frame, const FrameNow& now) {
-  const std::string name = "'" + frame.name + "'";
+  const std::string name = "'" + frame.name + "'", tool = "'" + frame.parent + "'";
+  if ((now.doing & kFrameLost) != 0) return name + " stands still: " + tool + ", which carries it, is not tracked.";
+  if ((now.doing & kFrameReturns) != 0) return name + " returns to " + tool + ", which is tracked again.";
   if ((now.doing & kFrameWaits) != 0) return name + " waits until no finger in it feels a force.";
   const std::string scale = frame.zoom && now.zoom != 1 ? scaleText(now.zoom) : "";
   if ((now.doing & kFrameClutched) != 0)
@@ -30,9 +32,14 @@ std::string frameSentence(const Frame& frame, const FrameNow& now) {
 }
 
 std::string frameSummary(const Frame& frame, const FrameNow& last) {
-  if (!frame.driven()) return {};
-  return "frame '" + frame.name + "': moved, clutched or zoomed " + counted(last.uses, "time") + ", " +
-         std::to_string(last.refusals) + " of them held up by a force";
+  std::string text;
+  if (frame.driven())
+    text = "moved, clutched or zoomed " + counted(last.uses, "time") + ", " + std::to_string(last.refusals) +
+           " of them held up by a force";
+  if (last.losses > 0)
+    text +=
+        (text.empty() ? "'" : "; '") + frame.parent + "', which carries it, was lost " + counted(last.losses, "time");
+  return text.empty() ? text : "frame '" + frame.name + "': " + text;
 }
 
 }  // namespace presa

@@ -26,7 +26,9 @@ class FramedDevice final : public WrappedDevice {
       sample.q_WT = q_WF_ * sample.q_WT;
       sample.w_WT = frame.w_WF + q_WF_ * sample.w_WT;
     }
-    if (sample.valid) tree_->setTool(role_, {{sample.p_WH, sample.q_WT}, sample.v_WH, sample.w_WT});
+    sample.valid = sample.valid && tree_->known(frame_);
+    if (tree_->carries(role_))
+      tree_->track(role_, {{sample.p_WH, sample.q_WT}, sample.v_WH, sample.w_WT}, sample.valid, tick.time);
     return sample;
   }
   void write(const Wrench& F_H_W, const Tick& tick) noexcept override {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "framework/device/minimum_jerk.h"
-
 namespace presa::walls {
 namespace {
 
@@ -28,17 +26,12 @@ const Pose& HeadWatch::update(const Pose& measured, bool valid, double time) noe
     }
     return pose_;
   }
-  if (lost_ || !known_ || jumped(measured, time)) {
-    from_ = pose_;
-    begin_ = time;
-  }
+  if (lost_ || !known_ || jumped(measured, time)) back_.begin(pose_, measured, time);
   lost_ = false;
   known_ = true;
   last_ = measured;
   last_time_ = time;
-  pose_ = measured;
-  if (const double share = minimumJerk((time - begin_) / kReturn); share < 1)
-    pose_ = interpolate(from_, measured, share);
+  pose_ = back_.at({.X_WF = measured}, time).X_WF;
   pose_.q.normalize();
   return pose_;
 }

@@ -98,6 +98,25 @@ bus::FingerSample fromTopic(const presa_dds_DeviceState& sample) noexcept {
   return out;
 }
 
+presa_dds_FrameState toTopic(const bus::FrameSample& sample) noexcept {
+  const FrameNow& now = sample.now;
+  presa_dds_FrameState out{sample.frame, toTopic(sample.stamp), {},        {}, now.zoom, now.doing,
+                           now.uses,     now.refusals,          now.losses};
+  put(now.X_WF.p, out.position);
+  put(now.X_WF.q, out.orientation);
+  return out;
+}
+bus::FrameSample fromTopic(const presa_dds_FrameState& sample) noexcept {
+  return {fromTopic(sample.stamp),
+          sample.frame,
+          {{vec3(sample.position), quat(sample.orientation)},
+           sample.zoom,
+           sample.doing,
+           sample.uses,
+           sample.refusals,
+           sample.losses}};
+}
+
 presa_dds_Beat toTopic(const bus::Heartbeat& heartbeat) noexcept {
   return {toTopic(heartbeat.stamp), heartbeat.objects, heartbeat.fingers, heartbeat.output_status,
           heartbeat.object_faults,  heartbeat.refused, heartbeat.last};
@@ -114,22 +133,45 @@ bus::Event fromTopic(const presa_dds_Event& event) noexcept {
   return {fromTopic(event.stamp), static_cast<bus::Event::Kind>(event.kind), event.bits};
 }
 
-presa_dds_SceneInfo toTopic(const bus::RunInfo& run) noexcept {
-  // the generated type has no const; writing does not modify the texts
-  return {run.run,
-          run.scene_hash,
-          run.period,
-          run.realtime,
-          const_cast<char*>(run.scene_name.c_str()),
-          const_cast<char*>(run.scene_xml.c_str()),
-          run.commands,
-          const_cast<char*>(run.mesh_sums.c_str()),
-          run.guide};
+SceneInfoTopic::SceneInfoTopic(const bus::RunInfo& run) {
+  // the generated types have no const; writing does not modify the texts
+  const auto text = [](const std::string& from) { return const_cast<char*>(from.c_str()); };
+  for (const bus::RigFrame& frame : run.frames) frames.push_back({text(frame.name), text(frame.parent), frame.zooms});
+  for (const std::string& place : run.places) places.push_back(text(place));
+  topic = {run.run,
+           run.scene_hash,
+           run.period,
+           run.realtime,
+           text(run.scene_name),
+           text(run.scene_xml),
+           run.commands,
+           text(run.mesh_sums),
+           run.guide,
+           {},
+           {}};
+  const auto count = [](const auto& from) { return static_cast<std::uint32_t>(from.size()); };
+  topic.frames = {count(frames), count(frames), frames.data(), false};
+  topic.places = {count(places), count(places), places.data(), false};
 }
 bus::RunInfo fromTopic(const presa_dds_SceneInfo& run) {
   const auto text = [](const char* from) { return from != nullptr ? std::string(from) : std::string(); };
-  return {run.run,      run.scene_hash,      run.period, run.realtime, text(run.scene_name), text(run.scene_xml),
-          run.commands, text(run.mesh_sums), run.guide};
+  bus::RunInfo out{run.run,
+                   run.scene_hash,
+                   run.period,
+                   run.realtime,
+                   text(run.scene_name),
+                   text(run.scene_xml),
+                   run.commands,
+                   text(run.mesh_sums),
+                   run.guide,
+                   {},
+                   {}};
+  for (std::uint32_t n = 0; n < run.frames._length; ++n) {
+    const presa_dds_RigFrame& frame = run.frames._buffer[n];
+    out.frames.push_back({text(frame.name), text(frame.parent), frame.zooms});
+  }
+  for (std::uint32_t n = 0; n < run.places._length; ++n) out.places.push_back(text(run.places._buffer[n]));
+  return out;
 }
 
 presa_dds_Command toTopic(const bus::Command& command) noexcept {

@@ -34,13 +34,6 @@ void collect(dds_entity_t reader, void* inbox) {
 class DdsReader final : public bus::Reader {
  public:
   explicit DdsReader(const BusSettings& settings) : joined_(join(settings)) {
-    const auto reader = [&](const Entity& topic, const Qos& qos, dds_on_data_available_fn arrived) {
-      dds_listener_t* listener = dds_create_listener(&inbox_);
-      dds_lset_data_available(listener, arrived);
-      const dds_entity_t handle = dds_create_reader(joined_->participant, topic, qos.get(), listener);
-      dds_delete_listener(listener);
-      return checked(handle, "a reader");
-    };
     scenes_ = reader(joined_->scenes, sceneQos(), collect<presa_dds_SceneInfo>);
     objects_ = reader(joined_->objects, stateQos(), collect<presa_dds_ObjectState>);
     fingers_ = reader(joined_->fingers, stateQos(), collect<presa_dds_DeviceState>);
@@ -48,14 +41,28 @@ class DdsReader final : public bus::Reader {
     events_ = reader(joined_->events, stateQos(), collect<presa_dds_Event>);
   }
 
+  void expectFrames() override {
+    if (frames_ != 0) return;
+    frames_topic_ = framesTopic(*joined_);
+    frames_ = reader(frames_topic_, stateQos(), collect<presa_dds_FrameState>);
+  }
   void take(bus::Listener& listener) override { inbox_.take(listener); }
   void wait(double seconds) override { inbox_.wait(seconds); }
   std::uint64_t overrun() const override { return inbox_.overrun(); }
 
  private:
+  Entity reader(const Entity& topic, const Qos& qos, dds_on_data_available_fn arrived) {
+    dds_listener_t* listener = dds_create_listener(&inbox_);
+    dds_lset_data_available(listener, arrived);
+    const dds_entity_t handle = dds_create_reader(joined_->participant, topic, qos.get(), listener);
+    dds_delete_listener(listener);
+    return checked(handle, "a reader");
+  }
+
   std::shared_ptr<Participant> joined_;
   bus::Inbox inbox_{kRoom};  // declared before the readers, so it outlives their listeners
   Entity scenes_, objects_, fingers_, heartbeats_, events_;
+  Entity frames_topic_, frames_;  // once frames are expected
 };
 
 }  // namespace

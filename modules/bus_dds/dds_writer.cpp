@@ -15,9 +15,6 @@ class DdsWriter final : public bus::Writer {
  public:
   explicit DdsWriter(const BusSettings& settings) : joined_(join(settings)) {
     dds_write_set_batch(true);
-    const auto writer = [&](const Entity& topic, const Qos& qos) {
-      return checked(dds_create_writer(joined_->participant, topic, qos.get(), nullptr), "a writer");
-    };
     objects_ = writer(joined_->objects, stateQos());
     fingers_ = writer(joined_->fingers, stateQos());
     heartbeats_ = writer(joined_->heartbeats, stateQos());
@@ -26,8 +23,12 @@ class DdsWriter final : public bus::Writer {
   }
 
   void announce(const bus::RunInfo& run) override {
-    const presa_dds_SceneInfo info = toTopic(run);
-    dds_write(scenes_, &info);
+    if (!run.frames.empty() && frames_ == 0) {
+      frames_topic_ = framesTopic(*joined_);
+      frames_ = writer(frames_topic_, stateQos());
+    }
+    const SceneInfoTopic info(run);
+    dds_write(scenes_, &info.topic);
     dds_write_flush(scenes_);
   }
 
@@ -37,6 +38,8 @@ class DdsWriter final : public bus::Writer {
     dds_write_flush(objects_);
     for (const bus::FingerSample& sample : snapshot.fingers) refused += write(fingers_, toTopic(sample));
     dds_write_flush(fingers_);
+    for (const bus::FrameSample& sample : snapshot.frames) refused += write(frames_, toTopic(sample));
+    if (frames_ != 0) dds_write_flush(frames_);
     refused += write(heartbeats_, toTopic(snapshot.heartbeat));
     dds_write_flush(heartbeats_);
     return refused;
@@ -49,11 +52,14 @@ class DdsWriter final : public bus::Writer {
 
   void finish() noexcept override {
     const dds_time_t end = monotonicNs() + kPatience;
-    for (const Entity* writer : {&objects_, &fingers_, &heartbeats_, &events_})
-      dds_wait_for_acks(*writer, std::max<dds_duration_t>(0, end - monotonicNs()));
+    for (const Entity* writer : {&objects_, &fingers_, &frames_, &heartbeats_, &events_})
+      if (*writer != 0) dds_wait_for_acks(*writer, std::max<dds_duration_t>(0, end - monotonicNs()));
   }
 
  private:
+  Entity writer(const Entity& topic, const Qos& qos) const {
+    return checked(dds_create_writer(joined_->participant, topic, qos.get(), nullptr), "a writer");
+  }
   template <class Topic>
   static std::uint64_t write(const Entity& writer, const Topic& sample) noexcept {
     return dds_write(writer, &sample) == DDS_RETCODE_OK ? 0 : 1;
@@ -61,6 +67,7 @@ class DdsWriter final : public bus::Writer {
 
   std::shared_ptr<Participant> joined_;
   Entity objects_, fingers_, heartbeats_, events_, scenes_;
+  Entity frames_topic_, frames_;  // only of a run whose rig has frames
 };
 
 }  // namespace

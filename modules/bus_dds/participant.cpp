@@ -164,6 +164,10 @@ Entity makeTopic(const Participant& joined, const dds_topic_descriptor_t& type, 
   return checked(dds_create_topic(joined.participant, &type, name, nullptr, nullptr), name);
 }
 
+Entity framesTopic(const Participant& joined) {
+  return makeTopic(joined, presa_dds_FrameState_desc, "presa_frame_state");
+}
+
 Qos commandQos() {
   Qos qos = reliable();
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kCommandsKept);

@@ -51,6 +51,8 @@ Qos sceneQos();
 /// Commands and answers: reliable, the last kCommandsKept. Older ones are discarded; the sender repeats a command until
 /// it is answered.
 Qos commandQos();
+/// The frames of a rig have a topic only where a run has some.
+Entity framesTopic(const Participant& joined);
 /// A topic of this participant, deleted with the returned entity. Throws InputError E720.
 Entity makeTopic(const Participant& joined, const dds_topic_descriptor_t& type, const char* name);
 

@@ -79,7 +79,7 @@ std::unique_ptr<DeviceFigures> DeviceFigures::of(const World& world) {
   for (std::size_t f = 0; f < world.scene.devices.size(); ++f) {
     const std::string& role = world.scene.devices[f].role;
     const auto binding = std::ranges::find(world.rig.devices, role, &DeviceBinding::role);
-    if (binding == world.rig.devices.end()) continue;
+    if (binding == world.rig.devices.end() || binding->driver.empty()) continue;  // a viewer's rig drives nothing
     Figure figure;
     figure.finger = f;
     figure.role = role;

@@ -155,7 +155,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.forces = force_command_.value();
   if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
   if (joint_positions_.connected()) frame_.joint_positions = &joint_positions_.value();
-  if (frames_ && frames_->connected()) frame_.frames = &frames_->value();
+  if (frames_ && frames_->hasValue()) frame_.frames = &frames_->value();
   if (guidance_.connected()) frame_.guidance = guidance_->now;
   if (!object_state_.hasValue()) return;
   const ObjectState& objects = object_state_.value();

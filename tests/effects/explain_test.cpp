@@ -138,6 +138,33 @@ TEST(Explain, SaysInWhichFramesADeviceStands) {
   EXPECT_TRUE(explain(source("config/scenes/cube.xml"))["devices"][0]["frames"].empty());
 }
 
+// What a user may do with frames, and what a view draws of bodies with textures: in text and JSON, only where they are.
+TEST(Explain, OnlyRigsAndScenesWithThemTellOfMovedFramesAndModels) {
+  const std::string cube = source("config/scenes/cube.xml"),
+                    clutched = cube + " --rig " + source("config/rigs/clutch_pair.xml");
+  const json run = explain(clutched);
+  ASSERT_EQ(run["frames"].size(), 2u) << "the head is fixed";
+  EXPECT_EQ(
+      run["frames"][0]["what"],
+      "in world; walks at up to 0.3 m/s and turns at up to 60 deg/s, by the window's keys; rests while a finger in it "
+      "feels a force");
+  EXPECT_EQ(run["frames"][1]["what"],
+            "in user; clutch by button 1 or the window's key; scale 0.5 to 2, finer by button 2 or the window's key, "
+            "coarser by button 3 or the window's key; rests while a finger in it feels a force");
+  EXPECT_NE(test::presa("explain " + clutched).out.find("\nFrames that a user moves\n  user"), std::string::npos);
+  const std::string drum = source("config/scenes/photographed.xml");
+  const json drawn = explain(drum);
+  ASSERT_EQ(drawn["models"].size(), 1u);
+  EXPECT_EQ(drawn["models"][0]["body"], "drum");
+  const std::string what = drawn["models"][0]["what"];
+  EXPECT_TRUE(what.starts_with("drum.glb, ")) << what;
+  EXPECT_NE(what.find("textures "), std::string::npos) << what;
+  EXPECT_NE(test::presa("explain " + drum).out.find("\nBodies drawn as models\n  drum "), std::string::npos);
+  const json plain = explain(cube);
+  EXPECT_FALSE(plain.contains("frames"));
+  EXPECT_FALSE(plain.contains("models"));
+}
+
 // A driver that sees the world moves in it. Its samples would be taken for those of the frame.
 TEST(Explain, RefusesADriverThatSeesTheWorldInAFrame) {
   const ScratchFolder folder;

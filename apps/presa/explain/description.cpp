@@ -1,10 +1,15 @@
 #include "apps/presa/explain/description.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "apps/common/grasp_loop.h"
 #include "framework/core/schedule/rates.h"
+#include "framework/geometry/model.h"
 #include "framework/scene/decompositions.h"
 #include "framework/scene/joints/joint_words.h"
 
@@ -66,6 +71,44 @@ void describeGrasps(const World& world, json& out) {
   }
 }
 
+template <class... Values>
+std::string print(const char* format, Values... values) {
+  std::array<char, 160> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+std::string byButton(const Frame::Button& button) {
+  return button.number ? print("button %d or the window's key", *button.number) : "the window's key";
+}
+
+/// What its user may do with a frame: "in user; clutch by button 1 or the window's key; scale 0.5 to 2, …".
+std::string describeFrame(const Frame& frame) {
+  std::string text = "in " + frame.parent;
+  if (frame.moves != Frame::Moves::kNot)
+    text +=
+        print("; %s at up to %.4g m/s and turns at up to %.4g deg/s, by the window's keys",
+              frame.moves == Frame::Moves::kWalk ? "walks" : "flies", frame.speed, frame.turn * 180 / std::numbers::pi);
+  if (!frame.drift.isZero()) text += print("; moves by itself at %.4g m/s", frame.drift.norm());
+  if (frame.clutch) text += "; clutch by " + byButton(*frame.clutch);
+  if (frame.zoom)
+    text += print("; scale %.4g to %.4g, finer by ", frame.zoom->min, frame.zoom->max) + byButton(frame.zoom->in) +
+            ", coarser by " + byButton(frame.zoom->out);
+  return text + "; rests while a finger in it feels a force";
+}
+
+/// What a view draws of a mesh file beside its triangles.
+std::string describeModel(const Model& model) {
+  std::string text =
+      std::filesystem::path(model.file).filename().string() + print(", %zu triangles, ", model.triangles());
+  if (model.textures.empty()) text += "colours without textures";
+  for (std::size_t n = 0; n < model.textures.size(); ++n) {
+    const ModelTexture& texture = model.textures[n];
+    text += (n == 0 ? "textures " : ", ") + texture.name + print(" of %d x %d", texture.width, texture.height);
+  }
+  return text + "; a view makes coarser levels of detail, a quarter of the triangles each";
+}
+
 }  // namespace
 
 std::set<std::string> mappedLibraries() {
@@ -107,6 +150,11 @@ json describeSession(Session& session, const std::set<std::string>& before) {
   for (const DecomposedMesh& mesh : decompositionsOf(*session.world())) out["decomposed"].push_back(textOf(mesh));
   for (const Joint& joint : session.world()->scene.joints)
     out["joints"].push_back({{"name", joint.name}, {"what", describeJoint(session.world()->scene, joint)}});
+  for (const Frame& frame : session.world()->rig.frames)
+    if (frame.driven()) out["frames"].push_back({{"name", frame.name}, {"what", describeFrame(frame)}});
+  for (std::size_t b = 0; b < session.world()->meshes.size(); ++b)
+    if (const auto& model = session.world()->meshes[b].model)
+      out["models"].push_back({{"body", session.world()->scene.bodies[b].name}, {"what", describeModel(*model)}});
   describeGrasps(*session.world(), out);
   for (const std::string& library : mappedLibraries()) {
     out["libraries"].push_back({{"name", library},

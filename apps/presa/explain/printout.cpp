@@ -103,6 +103,13 @@ void grasps(std::string& out, const json& run) {
   if (all.size() > kShown) out += format("  and %zu more, with lower ones\n", all.size() - kShown);
 }
 
+/// One line for each; no heading without any.
+void described(std::string& out, const json& run, const char* all, const char* name, const char* heading) {
+  if (run.contains(all)) out += std::string("\n") + heading + '\n';
+  for (const json& one : run.value(all, json::array()))
+    out += "  " + padded(text(one[name]), 22) + text(one["what"]) + '\n';
+}
+
 }  // namespace
 
 std::string explainText(const json& run) {
@@ -117,9 +124,9 @@ std::string explainText(const json& run) {
   }
   if (!run["decomposed"].empty()) out += "\nMeshes cut into convex pieces\n";
   for (const json& mesh : run["decomposed"]) out += "  " + text(mesh) + '\n';
-  if (run.contains("joints")) out += "\nJoints\n";
-  for (const json& joint : run.value("joints", json::array()))
-    out += "  " + padded(text(joint["name"]), 22) + text(joint["what"]) + '\n';
+  described(out, run, "frames", "name", "Frames that a user moves");
+  described(out, run, "models", "body", "Bodies drawn as models");
+  described(out, run, "joints", "name", "Joints");
   grasps(out, run);
   out += "\nValues that cross threads\n";
   crossings(out, run);

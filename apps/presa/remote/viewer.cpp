@@ -12,10 +12,12 @@
 #include "framework/assembly/guide_module.h"
 #include "framework/bus/mesh_store.h"
 #include "framework/bus/remote_picture.h"
+#include "framework/bus/rig_frames.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/core/graph/graph_builder.h"
 #include "framework/core/schedule/clock.h"
+#include "framework/device/frame_words.h"
 #include "framework/scene/load.h"
 #include "framework/session/session.h"
 #include "framework/session/view.h"
@@ -43,13 +45,17 @@ class GuideSource final : public Module {
 /// Writes the remote states to the ports that a view reads. Runs in the view group, before the view.
 class RemoteSource final : public Module {
  public:
-  /// `cave`: null without one.
-  RemoteSource(RemotePicture& picture, View*& view, const Cave* cave)
-      : Module("remote", RateGroup::kView), picture_(picture), view_(view), cave_(cave) {}
+  /// `frames`: the rig has some. `cave`: null without one.
+  RemoteSource(RemotePicture& picture, bool frames, View*& view, const Cave* cave)
+      : Module("remote", RateGroup::kView), picture_(picture), view_(view), cave_(cave) {
+    if (frames) frames_.emplace(*this, kFramesPort);
+  }
   void step(const Tick&) noexcept override {
     // the picture forgets the states that a frozen wall shows, as new ones arrive
-    if (cave_ == nullptr || !cave_->frozen())
+    if (cave_ == nullptr || !cave_->frozen()) {
       picture_.fill(objects_.value, device_.value, contact_.value, command_.value);
+      if (frames_) picture_.fill(frames_->value);
+    }
     if (view_ != nullptr) view_->setBanner(picture_.line() + remark_, picture_.alarm());
   }
   /// What the banner says besides.
@@ -65,6 +71,7 @@ class RemoteSource final : public Module {
   Out<DeviceState> device_{*this, "device_state"};
   Out<ContactExchange> contact_{*this, "contact_exchange"};
   Out<ForceCommand> command_{*this, "force_command"};
+  std::optional<Out<FrameState>> frames_;
 };
 
 /// The scene that this viewer draws: the run's scene as it was sent, or the viewer's own.
@@ -82,6 +89,7 @@ std::shared_ptr<const World> worldOf(const ViewerSettings& settings, const bus::
   World world;
   if (!diagnostics.hasErrors()) world = buildWorld(std::move(scene), {}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
+  world.rig = bus::rigOf(run, world.scene);
   return std::make_shared<const World>(std::move(world));
 }
 
@@ -101,6 +109,7 @@ class Viewer {
  public:
   Viewer(const ViewerSettings& settings, bus::Reader& reader, const bus::RunInfo& run)
       : settings_(settings), reader_(reader), world_(worldOf(settings, run)), picture_(*world_) {
+    if (!run.frames.empty()) reader.expectFrames();
     picture_.onRun(run, monotonicNs());
     if (!settings.cave.walls.empty()) {
       CaveSettings cave = settings.cave;
@@ -113,7 +122,7 @@ class Viewer {
     }
     if (settings.view == RunOptions::View::kNone) return;
     GraphBuilder builder;
-    auto source = std::make_unique<RemoteSource>(picture_, view_, cave_.get());
+    auto source = std::make_unique<RemoteSource>(picture_, !world_->rig.frames.empty(), view_, cave_.get());
     source_ = source.get();
     builder.add(std::move(source));
     if (guide_ != nullptr)
@@ -184,9 +193,17 @@ class Viewer {
   void say(bool last = false) const {
     const bool terminal = isatty(STDERR_FILENO) != 0;
     std::string line = picture_.line() + remark_;
+    if (const std::string frames = aboutFrames(); !frames.empty()) line += "; " + frames;
     if (cave_ != nullptr) line += "; " + cave_->line(monotonicNs());
     std::fprintf(stderr, terminal ? "\r\033[K%8.3f s  %s%s" : "%8.3f s  %s%s\n", picture_.time(), line.c_str(),
                  terminal && last ? "\n" : "");
+  }
+  std::string aboutFrames() const {
+    FrameState now;
+    picture_.fill(now);
+    for (std::size_t n = 0; n < now.frames.size(); ++n)
+      if (std::string text = frameSentence(world_->rig.frames[n], now.frames[n]); !text.empty()) return printable(text);
+    return {};
   }
   int verdict() const {
     if (other_leads_) {

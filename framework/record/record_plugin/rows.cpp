@@ -109,7 +109,9 @@ Table frameTable() {
       .vector("p_WF", offsetof(R, p_WF), "m", "origin of the frame, world frame")
       .vector("q_WF", offsetof(R, q_WF), "1", "orientation of the frame as unit quaternion, frame to world", "wxyz")
       .real("zoom", offsetof(R, zoom), "1", "metres of the world for one of the frame")
-      .add("doing", offsetof(R, doing), Cell::kU32, "1", "sum of 1: moves; 2: clutched; 4: zooms; 8: a wish waits")
+      .add("doing", offsetof(R, doing), Cell::kU32, "1",
+           "sum of 1: moves; 2: clutched; 4: zooms; 8: a wish waits; "
+           "16: its tool is lost; 32: returns to it")
       .add("uses", offsetof(R, uses), Cell::kU32, "1", "walks, clutches and zooms begun, since start")
       .add("refusals", offsetof(R, refusals), Cell::kU32, "1", "of them held up by a force, since start")
       .add("none", offsetof(R, none), Cell::kU32, "1", "always 0");

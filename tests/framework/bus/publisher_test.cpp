@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <vector>
 
 #include "experiments/study/study_run.h"
 #include "framework/bus/local_bus.h"
 #include "framework/bus/remote_picture.h"
+#include "framework/bus/rig_frames.h"
+#include "framework/device/frame_watch.h"
+#include "framework/device/frame_words.h"
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
 #include "tests/support/alloc_lock_guard.h"
@@ -106,6 +110,58 @@ TEST(Publisher, CarriesTheStatesOfTheRun) {
   run.run();
   EXPECT_GT(compared, 590);
   EXPECT_EQ(picture.health().lost, 0u);
+}
+
+// A rig with a clutch: a viewer, whose own rig is only what the run's information says of it, has the frames to the bit
+// and says the same of them. One period behind, so that each picture is a published moment.
+TEST(Publisher, CarriesTheFramesOfTheRig) {
+  StudySpec spec = cube();
+  spec.rig = std::string(PRESA_SOURCE_DIR) + "/config/rigs/clutch_pair.xml";
+  LocalBus bus;
+  StudyRun run(spec, {}, publisherOf(bus));
+  const auto reader = bus.reader();
+  RunInfo info;
+  info.frames = rigFrames(run.world().rig);
+  info.places = placesOf(run.world());
+  World there = run.world();
+  there.rig = rigOf(info, there.scene);
+  EXPECT_EQ(there.rig.devices[1].frame, "desk");
+  RemotePicture picture(there), without([&] {
+    World bare = run.world();
+    bare.rig = {};
+    return bare;
+  }());
+  std::map<double, FrameState> states;
+  int compared = 0, clutched = 0;
+  run.observe([&](const HapticSample& sample) {
+    states[sample.tick.time] = run.session().frames()->last();
+    if (sample.tick.index % 5 != 4) return;
+    reader->take(picture);
+    picture.advance(std::numeric_limits<std::int64_t>::max() / 4);  // as far as possible
+    FrameState seen;
+    picture.fill(seen);
+    if (seen.frames.empty()) return;
+    const FrameState& real = states.at(seen.time);
+    ASSERT_EQ(seen.frames.size(), 3U);
+    for (std::size_t n = 0; n < 3; ++n) {
+      ASSERT_EQ(seen.frames[n].X_WF.p, real.frames[n].X_WF.p);
+      ASSERT_EQ(seen.frames[n].X_WF.q.coeffs(), real.frames[n].X_WF.q.coeffs());
+      ASSERT_EQ(seen.frames[n].zoom, real.frames[n].zoom);
+      const std::string said = frameSentence(there.rig.frames[n], seen.frames[n]);
+      ASSERT_EQ(said, frameSentence(run.world().rig.frames[n], real.frames[n]));
+      clutched += said == "Clutch: 'desk' slides under the hand." ? 1 : 0;
+    }
+    ++compared;
+  });
+  const auto other = bus.reader();
+  run.run();
+  EXPECT_GT(compared, 590);
+  EXPECT_GT(clutched, 190) << "the hand holds the button for a second";
+  EXPECT_EQ(picture.health().lost, 0u);
+  other->take(without);
+  FrameState none(2);
+  without.fill(none);
+  EXPECT_TRUE(none.frames.empty()) << "a viewer that knows of no frames";
 }
 
 TEST(Publisher, GivesTheStaticPartToWhoComesLate) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/device/frame_words.h"
 #include "framework/device/framed_device.h"
 #include "tests/support/alloc_lock_guard.h"
 
@@ -79,6 +80,133 @@ class Stylus final : public Device {
   FingerInput sample{.p_WH = {0.1, 0.2, 0.3}, .v_WH = {1, -2, 3}, .valid = true, .oriented = true, .w_WT = {3, 2, 1}};
   Wrench wrench;
 };
+
+/// A lamp on the tool of a stylus whose tracker may fail, and a device that rests in the lamp's frame.
+class LampOnTool {
+ public:
+  LampOnTool() : tree_(std::make_shared<FrameTree>(walkingRig(), oneRole())) {
+    auto made = std::make_unique<Stylus>();
+    stylus = made.get();
+    stylus->sample.v_WH.setZero(), stylus->sample.w_WT.setZero();
+    tool_ = std::make_unique<FramedDevice>(std::move(made), tree_, FrameTree::kWorld, 0);
+    rider_ = std::make_unique<FramedDevice>(std::make_unique<Stylus>(), tree_, tree_->find("lamp"), 1);
+  }
+  /// Ticks of 1 ms with the stylus where it is. Returns the longest step of the lamp's origin [m].
+  double ticks(int count) {
+    double longest = 0;
+    for (int n = 0; n < count; ++n) {
+      const Vec3 before = lamp().X_WF.p;
+      tool_->read(now_);
+      rider = rider_->read(now_);
+      if (n > 0 || known_) longest = std::max(longest, (lamp().X_WF.p - before).norm());
+      known_ = true;
+      ++now_.index;
+      now_.time = 1e-3 * static_cast<double>(now_.index);
+    }
+    return longest;
+  }
+  FrameMotion lamp() const { return tree_->at(tree_->find("lamp"), now_.time); }
+  FrameNow told() const {
+    FrameState state(tree_->frames());
+    tree_->tell(now_.time, state);
+    return state.frames[2];
+  }
+  std::string says() const { return frameSentence(walkingRig().frames[2], told()); }
+
+  Stylus* stylus;
+  FingerInput rider;
+
+ private:
+  static std::vector<DeviceRole> oneRole() {
+    std::vector<DeviceRole> two(2);
+    two[0].role = "thumb", two[1].role = "rider";
+    return two;
+  }
+  std::shared_ptr<FrameTree> tree_;
+  std::unique_ptr<FramedDevice> tool_, rider_;
+  Tick now_{0, 0, 1e-3};
+  bool known_ = false;
+};
+
+// The peak speed of a minimum-jerk movement over d in T is 1.875 d / T. The tool neither turned nor moves, so that the
+// lamp's step is that of the fading offset; a tick of it is at most its peak speed times a millisecond.
+TEST(ToolWatch, AFrameFreezesWhileItsToolIsLostAndReturnsWithoutAJump) {
+  LampOnTool desk;
+  desk.ticks(100);
+  desk.stylus->sample.valid = false;
+  const Vec3 way(0.4, -0.3, 0);
+  desk.stylus->sample.p_WH += way;
+  EXPECT_EQ(desk.ticks(50), 0);
+  EXPECT_EQ(desk.says(), "") << "a tracker that blinks is no news";
+  EXPECT_EQ(desk.ticks(1000), 0);
+  EXPECT_TRUE(desk.lamp().v_WF.isZero());
+  EXPECT_TRUE(desk.rider.valid) << "its device works on";
+  EXPECT_EQ(desk.says(), "'lamp' stands still: 'thumb', which carries it, is not tracked.");
+  desk.stylus->sample.valid = true;
+  const double bound = 1.875 * way.norm() / PoseReturn::kTime * 1e-3, longest = desk.ticks(400);
+  EXPECT_LE(longest, bound * (1 + 1e-9));
+  EXPECT_GE(longest, 0.99 * bound) << "the peak is within these ticks";
+  EXPECT_EQ(desk.says(), "'lamp' returns to 'thumb', which is tracked again.");
+  EXPECT_LE(desk.ticks(500), bound * (1 + 1e-9));
+  EXPECT_EQ(desk.lamp().X_WF.p, desk.stylus->sample.p_WH + Vec3(0, 0.1, 0)) << "to the bit what is measured";
+  EXPECT_EQ(desk.says(), "");
+  EXPECT_EQ(desk.told().losses, 1U);
+  EXPECT_EQ(frameSummary(walkingRig().frames[2], desk.told()),
+            "frame 'lamp': 'thumb', which carries it, was lost 1 time");
+}
+
+// While it returns, what a frame says of its velocity is what its pose does; a tick of 1 ms at accelerations below
+// 40 m/s^2 and 90 rad/s^2 is exact to 1e-3 of either in a tick.
+TEST(ToolWatch, VelocitiesOfTheReturnAreThoseOfThePoses) {
+  LampOnTool desk;
+  desk.ticks(10);
+  desk.stylus->sample.valid = false;
+  desk.ticks(200);
+  desk.stylus->sample.valid = true;
+  desk.stylus->sample.p_WH += Vec3(0.2, 0.5, -0.1);
+  desk.stylus->sample.q_WT = turn(60, {1, 2, 0.5});
+  desk.stylus->sample.w_WT = {0, 0, 1};
+  desk.stylus->sample.v_WH = {0.3, 0, 0};
+  for (int n = 0; n < 900; ++n) {
+    const FrameMotion last = desk.lamp();
+    desk.ticks(1);
+    const FrameMotion now = desk.lamp();
+    const Eigen::AngleAxisd turned(now.X_WF.q * last.X_WF.q.conjugate());
+    if (n > 0) {
+      EXPECT_LT((0.5 * (now.v_WF + last.v_WF) - (now.X_WF.p - last.X_WF.p) / 1e-3).norm(), 2e-3) << n;
+      EXPECT_LT((0.5 * (now.w_WF + last.w_WF) - turned.angle() / 1e-3 * turned.axis()).norm(), 2e-3) << n;
+    }
+    desk.stylus->sample.p_WH += 1e-3 * desk.stylus->sample.v_WH;
+    desk.stylus->sample.q_WT = (Quat(Eigen::AngleAxisd(1e-3, Vec3::UnitZ())) * desk.stylus->sample.q_WT).normalized();
+  }
+}
+
+// Samples that are no pose count as none, and one that is a kilometre away moves the frame by 1.875 of it at most.
+TEST(ToolWatch, ImpossibleSamplesMakeNoJump) {
+  for (const double wrong : {static_cast<double>(NAN), 1000.0}) {
+    LampOnTool desk;
+    desk.ticks(100);
+    const Vec3 there = desk.lamp().X_WF.p;
+    const double right = std::exchange(desk.stylus->sample.p_WH.x(), wrong);
+    EXPECT_LT(desk.ticks(1), 1e-9);
+    desk.stylus->sample.p_WH.x() = right;
+    EXPECT_LT(desk.ticks(900), 1e-9) << wrong;
+    EXPECT_LT((desk.lamp().X_WF.p - there).norm(), 1e-12);
+    EXPECT_EQ(desk.told().losses, 0U);
+  }
+}
+
+// Nobody knows where a device is that stands on a tool which has not been seen yet: it has no sample before.
+TEST(ToolWatch, ADeviceWaitsForTheFirstSampleOfItsTool) {
+  LampOnTool desk;
+  desk.stylus->sample.valid = false;
+  desk.ticks(10);
+  EXPECT_FALSE(desk.rider.valid);
+  desk.stylus->sample.valid = true;
+  desk.ticks(1);
+  EXPECT_TRUE(desk.rider.valid);
+  EXPECT_LT((desk.lamp().X_WF.p - desk.stylus->sample.p_WH - Vec3(0, 0.1, 0)).norm(), 1e-12) << "there at once";
+}
 
 // What the hand feels does the same work in its frame as in the world, apart from what moves the frame itself.
 TEST(FramedDevice, TurnsSamplesAndWrenchesWithTheSamePower) {

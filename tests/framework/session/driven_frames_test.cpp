@@ -183,7 +183,37 @@ TEST(DrivenFrames, ARestlessUserGetsNoStepAndNoEnergy) {
   }
 }
 
-// A button that no device of the frame has; a device in another frame does not count.
+// A finger presses on a table from a desk on a tool, whose tracker is lost for a second, in which the tool goes 100 mm
+// along the table and 1 mm down: the desk stands still, then follows without a jump, and the finger keeps touching.
+// What the hand gets in a tick is within the slew limit, and no sample is rejected.
+TEST(DrivenFrames, AFingerInContactFeelsNoStepWhenTheToolOfItsFrameIsLostAndFound) {
+  const std::string tool = write("lost_tool.csv",
+                                 "time_s,role,x_m,y_m,z_m\n0,index,0,0,0.4\n1.5,index,0,0,0.4\n2.2,index,0.1,0,0.399\n"
+                                 "5,index,0.1,0,0.399\n");
+  const std::string hand =
+      write("lost_hand.csv", "time_s,role,x_m,y_m,z_m\n0,thumb,0,0,-0.37\n0.5,thumb,0,0,-0.394\n5,thumb,0,0,-0.394\n");
+  const auto on = [](const std::string& role, const std::string& in, const std::string& motion,
+                     const std::string& lost) {
+    return "<device role=\"" + role + "\" driver=\"restless\" in=\"" + in + "\"><set key=\"motion\" value=\"" + motion +
+           "\"/>" + lost + "<limits force=\"8\" force_rate=\"1000\"/></device>";
+  };
+  const std::string lost = "<set key=\"lost_from\" value=\"1.4\"/><set key=\"lost_until\" value=\"2.4\"/>";
+  const std::string rig_file =
+      write("lost_rig.xml", "<rig version=\"1.0\" name=\"r\"><frame name=\"desk\" in=\"index\"/>" +
+                                on("thumb", "desk", hand, "") + on("index", "world", tool, lost) + "</rig>");
+  const std::string table =
+      "<body name=\"table\" fixed=\"true\" material=\"rubber\" pos=\"0 0 -0.02\"><haptic><box size=\"4 4 "
+      "0.04\"/></haptic>"
+      "</body>";
+  const Outcome run = runOf(write("lost_scene.xml", scene(table, kTwo)), rig_file, 9, 9, 4);
+  const auto& thumb = run.hand[0];
+  EXPECT_LE(thumb.at("force_rate"), kRate * (1 + 1e-9));
+  EXPECT_EQ(thumb.at("touches"), 1);
+  EXPECT_GT(thumb.at("felt"), 3550) << "from 0.4 s to the end: nothing stopped it";
+  EXPECT_EQ(run.frames[0].losses, 1U);
+  EXPECT_NEAR(run.frames[0].X_WF.p.x(), 0.1, 1e-6);
+}
+
 // A rig without frames, in which one device stands on the tool of another: its samples are turned into the world all the
 // same. Both hands rest, the second 10 mm along x of the first tool, which has the world's axes.
 TEST(DrivenFrames, ADeviceOnAToolNeedsNoFrame) {
@@ -214,6 +244,7 @@ TEST(DrivenFrames, ADeviceOnAToolNeedsNoFrame) {
   EXPECT_NEAR(thumb.y(), 0.2, 1e-9);
 }
 
+// A button that no device of the frame has; a device in another frame does not count.
 TEST(DrivenFrames, AButtonThatNoDeviceHasIsAnErrorAtItsPlace) {
   setenv("PRESA_PLUGIN_PATH", PRESA_BINARY_DIR "/tests/plugins", 1);
   const std::string scene_file = write("button.xml", scene(kCube, kTwo)), motion = graspMotion();

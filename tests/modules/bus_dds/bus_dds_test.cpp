@@ -32,11 +32,13 @@ struct Kept final : Listener {
   void onRun(const RunInfo& run, std::int64_t) override { runs.push_back(run); }
   void onObject(const ObjectSample& sample, std::int64_t) override { objects.push_back(sample); }
   void onFinger(const FingerSample& sample, std::int64_t) override { fingers.push_back(sample); }
+  void onFrame(const FrameSample& sample, std::int64_t) override { frames.push_back(sample); }
   void onHeartbeat(const Heartbeat& heartbeat, std::int64_t) override { heartbeats.push_back(heartbeat); }
   void onEvent(const Event& event, std::int64_t) override { events.push_back(event); }
   std::vector<RunInfo> runs;
   std::vector<ObjectSample> objects;
   std::vector<FingerSample> fingers;
+  std::vector<FrameSample> frames;
   std::vector<Heartbeat> heartbeats;
   std::vector<Event> events;
 };
@@ -55,7 +57,9 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   const BusSettings bus = ownDomain();
   const auto writer = openWriter(bus);
   const double odd = std::nextafter(0.1, 1.0), tiny = std::numeric_limits<double>::denorm_min();
-  const RunInfo run{0xfedcba9876543210, 0x0123456789abcdef, 0.005, true, "scène", std::string(300'000, 'x')};
+  RunInfo run{0xfedcba9876543210, 0x0123456789abcdef, 0.005, true, "scène", std::string(300'000, 'x')};
+  run.frames = {{"Tisch", "world", true}, {"", "Tisch", false}};
+  run.places = {"world", "Tisch"};
   writer->announce(run);
   const auto reader = openReader(bus);  // joins late
   Kept kept;
@@ -67,6 +71,10 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   EXPECT_EQ(kept.runs[0].realtime, run.realtime);
   EXPECT_EQ(kept.runs[0].scene_name, run.scene_name);
   EXPECT_EQ(kept.runs[0].scene_xml, run.scene_xml);
+  EXPECT_EQ(kept.runs[0].frames, run.frames);
+  EXPECT_EQ(kept.runs[0].places, run.places);
+  reader->expectFrames();
+  reader->expectFrames();  // once is enough
 
   const Stamp stamp{run.run, 42, odd, 123456789012345};
   ObjectSample object{stamp, 117, {{odd, -0.0, tiny}, Quat(0.5, -0.5, 0.5, odd)}, {1, 2, odd}, {4, 5, 6}, true};
@@ -91,11 +99,26 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   contact.normal_force = 4 * odd;
   contact.tangential_force_W = {odd, 4, 1};
   contact.f_H_W = {odd, 5, 1};
+  const FrameSample frame{stamp, 1, {{{odd, -2, tiny}, Quat(0.5, 0.5, -0.5, odd)}, odd, 0x80000003, 7, 6, 5}};
   const Heartbeat heartbeat{stamp, 1, 1, 0x80000001, 5, 99, true};
-  writer->publish({std::span(&object, 1), std::span(&finger, 1), heartbeat});
+  // the reader of frames has just come: repeated until it is discovered
+  const std::int64_t end = monotonicNs() + static_cast<std::int64_t>(kPatience * 1e9);
+  for (Kept first; first.frames.empty() && monotonicNs() < end; reader->wait(0.02), reader->take(first)) {
+    Heartbeat none;
+    none.stamp.run = 1;
+    writer->publish({{}, {}, none, std::span(&frame, 1)});
+  }
+  for (Kept rest; monotonicNs() < end;) {  // what is still under way
+    reader->wait(0.05);
+    const std::size_t before = rest.heartbeats.size() + rest.frames.size();
+    reader->take(rest);
+    if (rest.heartbeats.size() + rest.frames.size() == before) break;
+  }
+  writer->publish({std::span(&object, 1), std::span(&finger, 1), heartbeat, std::span(&frame, 1)});
   writer->publish({stamp, Event::Kind::kObjectFault, 3});
   takeUntil(*reader, kept, [&] {
-    return !kept.objects.empty() && !kept.fingers.empty() && !kept.heartbeats.empty() && !kept.events.empty();
+    return !kept.objects.empty() && !kept.fingers.empty() && !kept.heartbeats.empty() && !kept.events.empty() &&
+           !kept.frames.empty();
   });
   ASSERT_EQ(kept.objects.size(), 1u);
   ASSERT_EQ(kept.fingers.size(), 1u);
@@ -133,6 +156,16 @@ TEST(BusDds, CarriesEverySampleToTheBit) {
   EXPECT_EQ(f.contact.normal_force, contact.normal_force);
   EXPECT_EQ(f.contact.tangential_force_W, contact.tangential_force_W);
   EXPECT_EQ(f.contact.f_H_W, contact.f_H_W);
+  const FrameSample& r = kept.frames[0];
+  EXPECT_EQ(r.stamp.sequence, stamp.sequence);
+  EXPECT_EQ(r.frame, 1);
+  EXPECT_EQ(r.now.X_WF.p, frame.now.X_WF.p);
+  EXPECT_EQ(r.now.X_WF.q.coeffs(), frame.now.X_WF.q.coeffs());
+  EXPECT_EQ(r.now.zoom, odd);
+  EXPECT_EQ(r.now.doing, 0x80000003U);
+  EXPECT_EQ(r.now.uses, 7U);
+  EXPECT_EQ(r.now.refusals, 6U);
+  EXPECT_EQ(r.now.losses, 5U);
   const Heartbeat& b = kept.heartbeats[0];
   EXPECT_EQ(b.objects, 1);
   EXPECT_EQ(b.fingers, 1);
