@@ -163,7 +163,7 @@ TEST(PercroHands, TheMouseLeadsTheArm) {
   Vec3 reached = Vec3::Zero();
   for (std::uint64_t i = 0; i < 4000; ++i) {
     const Tick tick{i, static_cast<double>(i) * kPeriod, kPeriod};
-    arm->point({1, middle, 0, 0}, tick);
+    arm->point({1, middle, 0, 0, 0, 0, {}}, tick);
     reached = arm->read(tick).p_WH;
     arm->write({}, tick);
   }

@@ -42,7 +42,7 @@ struct Bench {
       pair.feel(side, {plants[side].position(), plants[side].velocity(), felt[side]});
     }
   }
-  void point(const Vec3& p, double closing, double yaw = 0) { pair.point({++sequence, p, yaw, closing}); }
+  void point(const Vec3& p, double closing, double yaw = 0) { pair.point({++sequence, p, yaw, closing, 0, 0, {}}); }
   double x(Pair::Side side) const { return plants[side].position().x(); }
 
   Pair pair{{.start = Vec3::Zero(), .fingertip = kRadius, .span = kSpan, .grip = kGrip, .push = kPush}};

@@ -130,7 +130,7 @@ TEST(PointerScene, ItsTickNeitherAllocatesNorLocks) {
   const auto device = test::firstDevice(kScene, kRig, diagnostics);
   ASSERT_TRUE(device) << diagnostics.text();
   ASSERT_TRUE(device->points());
-  device->point({1, {0.1, 0, 0.2}, 1, 0.5}, {});
+  device->point({1, {0.1, 0, 0.2}, 1, 0.5, 0, 0, {}}, {});
   test::expectRealTime(*device);
 }
 

@@ -36,7 +36,7 @@ struct StylusBench {
 // together turn by at most sqrt(2) of one follower's speed.
 TEST(PointerStylus, LeansWhereThePointerSays) {
   StylusBench bench;
-  bench.stylus.point({1, Vec3(0, 0, 0.1), 0.7, 0, 0.5});
+  bench.stylus.point({1, Vec3(0, 0, 0.1), 0.7, 0, 0.5, 0, {}});
   bench.run(2);
   const Vec3 axis = bench.stylus.sample().q_WT * Vec3::UnitZ();
   EXPECT_LT((axis - Vec3(std::sin(0.5) * std::cos(0.7), std::sin(0.5) * std::sin(0.7), std::cos(0.5))).norm(), 1e-6);
@@ -47,7 +47,7 @@ TEST(PointerStylus, LeansWhereThePointerSays) {
 // The reported angular velocity is the rate of the reported orientation, also about two axes at once.
 TEST(PointerStylus, ReportsTheRateOfItsOrientation) {
   StylusBench bench;
-  bench.stylus.point({1, Vec3(0, 0, 0.1), 1.2, 0, 0.8});
+  bench.stylus.point({1, Vec3(0, 0, 0.1), 1.2, 0, 0.8, 0, {}});
   bench.run(0.2);
   const FingerInput before = bench.stylus.sample();
   bench.run(kTick);
@@ -70,7 +70,7 @@ TEST(PointerStylus, YieldsToForceAndTorque) {
 TEST(PointerStylus, IgnoresATargetThatIsNotFinite) {
   StylusBench bench;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  bench.stylus.point({1, Vec3(0, 0, 0.1), nan, 0, nan});
+  bench.stylus.point({1, Vec3(0, 0, 0.1), nan, 0, nan, 0, {}});
   bench.run(0.1);
   EXPECT_LT(bench.stylus.sample().q_WT.angularDistance(Quat::Identity()), 1e-12);
 }
@@ -79,7 +79,7 @@ TEST(PointerStylus, NeitherAllocatesNorLocks) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   StylusBench bench;
   const RealTimeGuard guard;
-  bench.stylus.point({1, Vec3(0, 0, 0.1), 1, 0, 1});
+  bench.stylus.point({1, Vec3(0, 0, 0.1), 1, 0, 1, 0, {}});
   bench.run(0.1);
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }

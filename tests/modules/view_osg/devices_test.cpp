@@ -194,8 +194,9 @@ TEST(ShownDevices, ADeviceInAFrameOfTheRigStandsInIt) {
     const auto* part = dynamic_cast<const osg::MatrixTransform*>(figures->root()->getChild(i));
     const osg::Vec3d p = part->getMatrix().getTrans();
     if (part->getName() == "thumb inner tube") nearest = (Vec3(p.x(), p.y(), p.z()) - tip).norm();
-    if (part->getName() == "thumb base")
+    if (part->getName() == "thumb base") {
       EXPECT_LT((Vec3(p.x(), p.y(), p.z()) - desk.X_PF * Vec3(-0.75, 0, 0.1)).norm(), 1e-12);
+    }
   }
   EXPECT_LT(nearest, 1e-12);
 }
