@@ -31,6 +31,7 @@ double farthest(const TriMesh& from, const TriMesh& to) {
 
 CoarserCorners decimateCorners(const std::vector<float>& places, const std::vector<std::uint32_t>& corners,
                                std::size_t triangles, double max_error) {
+  if (3 * triangles >= corners.size()) return {corners, 0};  // meshoptimizer takes that for a mistake and aborts
   const auto simplify = reinterpret_cast<DecimateMeshFunction>(pluginSymbol("mesh_decimate", kMeshDecimateSymbol));
   CoarserCorners out;
   out.corners.resize(corners.size());

@@ -36,5 +36,15 @@ TEST(Decimate, KeepsTheShapeAsFarAsTheTrianglesGo) {
   }
 }
 
+// The library aborts where it is asked for more triangles than there are.
+TEST(Decimate, LeavesAMeshAsItIsThatHasNoMore) {
+  const TriMesh box = makeBox({0.1, 0.1, 0.1});
+  for (const std::size_t wanted : {12u, 13u, 4000u}) {
+    const TriMesh same = decimateMesh(box, wanted);
+    EXPECT_EQ(same.triangles, box.triangles) << wanted;
+    EXPECT_EQ(same.vertices, box.vertices) << wanted;
+  }
+}
+
 }  // namespace
 }  // namespace presa
