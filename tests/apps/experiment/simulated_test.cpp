@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "apps/common/scratch_folder.h"
 #include "apps/experiment/operator/operator.h"
 #include "apps/experiment/session.h"
@@ -117,7 +119,9 @@ TEST(Simulated, TheSessionSaysSoAndKeepsItsLevel) {
   EXPECT_EQ(records.front().at("traits").at("safety_margin"), (Json{{"value", margin}, {"unit", "1"}}));
   EXPECT_EQ(logged().runs.at(0).end.at("model").at(0).at("device_resolution").at("unit"), "m");
   // both fingers carry the cube: the means of their tangential forces are its weight, but for what the hand does to it
-  const Json& values = logged().runs.at(0).end.at("values");
+  const auto end = std::ranges::find_if(records, [](const Json& record) { return record.at("event") == "trial_end"; });
+  ASSERT_NE(end, records.end());
+  const Json& values = end->at("values");
   const double weight = 9.81 * values.at("mass").get<double>();
   EXPECT_NEAR(values.at("F_t_thumb").get<double>() + values.at("F_t_index").get<double>(), weight, 0.02 * weight);
   EXPECT_THAT(contentsOf(folder.file("trials.csv")), HasSubstr("\nS03,1,\"" + kModel + "\",1,"));
