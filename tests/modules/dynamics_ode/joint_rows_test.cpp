@@ -1,6 +1,7 @@
 #include <functional>
 
 #include "modules/dynamics_ode/rotation.h"
+#include "tests/modules/dynamics_ode/pendulum.h"
 #include "tests/modules/dynamics_ode/support.h"
 
 // Joints in islands of several: the general rows with Newton's method, not the steps for one joint alone.
@@ -76,23 +77,6 @@ TEST(JointRows, HoldAHundredNewtons) {
   }
 }
 
-// Complete elliptic integral of the first kind by the arithmetic-geometric mean.
-double completeK(double k) {
-  double a = 1, b = std::sqrt(1 - k * k);
-  for (int i = 0; i < 40; ++i) {
-    const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return std::numbers::pi / 2 / a;
-}
-
-// Top of the parabola through three equally spaced values.
-double topOf(double a, double b, double c) {
-  const double slope = (c - a) / 2, bend = a - 2 * b + c;
-  return b - slope * slope / (2 * bend);
-}
-
 // A pendulum of two bodies fixed to each other: period against the elliptic integral, energy at the turning points by
 // their heights, as in Joint.PendulumKeepsPeriodAndEnergyForAMinute.
 TEST(JointRows, PendulumOfTwoBodiesKeepsPeriodAndEnergyForAMinute) {
@@ -114,7 +98,7 @@ TEST(JointRows, PendulumOfTwoBodiesKeepsPeriodAndEnergyForAMinute) {
       const double arm = kGravity * (mass * length / 2 + bob * length);
       const double inertia = boxInertia(mass, size)(1, 1) + mass * length * length / 4 + boxInertia(bob, small)(1, 1) +
                              bob * length * length;
-      const double period = 4 * std::sqrt(inertia / arm) * completeK(std::sin(start / 2));
+      const double period = 4 * std::sqrt(inertia / arm) * ellipticK(std::sin(start / 2));
       std::vector<double> angles, heights, crossings, peaks;
       for (int i = 0; i < 12000; ++i) {
         runner.step();
@@ -126,7 +110,7 @@ TEST(JointRows, PendulumOfTwoBodiesKeepsPeriodAndEnergyForAMinute) {
         if (angles[n - 2] < 0 && angles[n - 1] >= 0)
           crossings.push_back(runner.time - kStep * angles[n - 1] / (angles[n - 1] - angles[n - 2]));
         if (heights[n - 2] > heights[n - 3] && heights[n - 2] >= heights[n - 1])
-          peaks.push_back(topOf(heights[n - 3], heights[n - 2], heights[n - 1]));
+          peaks.push_back(peakOf(heights[n - 3], heights[n - 2], heights[n - 1]));
       }
       const double measured = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
       const auto [lowest, highest] = std::ranges::minmax(peaks);

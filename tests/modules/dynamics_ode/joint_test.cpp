@@ -1,3 +1,4 @@
+#include "tests/modules/dynamics_ode/pendulum.h"
 #include "tests/modules/dynamics_ode/support.h"
 #include "tests/support/alloc_lock_guard.h"
 
@@ -26,23 +27,6 @@ struct Pendulum {
   Mat3 inertia;
   double about_joint = 0, h;
 };
-
-// Complete elliptic integral of the first kind by the arithmetic-geometric mean.
-double ellipticK(double k) {
-  double a = 1, b = std::sqrt(1 - k * k);
-  for (int i = 0; i < 40; ++i) {
-    const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return std::numbers::pi / 2 / a;
-}
-
-// Top of the parabola through three equally spaced values.
-double peakOf(double a, double b, double c) {
-  const double slope = (c - a) / 2, bend = a - 2 * b + c;
-  return b - slope * slope / (2 * bend);
-}
 
 // Period against the elliptic integral. Energy at the turning points, where velocities do not matter: their heights. An
 // integrator of second order is off by (h omega)^2 / 24 = 5e-5 in the period; the energy of a symplectic one does not
