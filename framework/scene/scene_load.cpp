@@ -4,6 +4,7 @@
 #include "framework/scene/joints/joint_parts.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/physics_shapes.h"
+#include "framework/scene/scene_copy.h"
 #include "framework/scene/scene_parts.h"
 
 namespace presa {
@@ -36,16 +37,19 @@ const xml::Schema& sceneSchema() {
 Scene loadDocument(xml::Document& document, bool from_file, const std::string& directory,
                    const std::vector<Override>& overrides, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.errorCount();
+  bool whole = true;  // else references to what is missing would only be further findings
   Scene scene;
   scene.file = document.name();
   if (document.root().name() == sceneSchema().root().name) {
     expandIncludes(document, from_file, diagnostics);
+    whole = diagnostics.errorCount() == errors_before;
     applyOverrides(document.root(), sceneSchema().root(), overrides, diagnostics);
   }
   document.validate(sceneSchema(), diagnostics);
   if (document.root().name() != sceneSchema().root().name) return scene;
   checkVersion(document.root(), "scene", kVersion, diagnostics);
   removeIncludes(document.root());
+  if (!whole) return scene;
   resolveFrictionPresets(document.root(), diagnostics);
   checkScene(document.root(), diagnostics);
   checkSceneBus(document.root(), diagnostics);
@@ -113,6 +117,12 @@ Scene parseScene(const std::string& xml, const std::string& name, const std::str
   nothing.file = name;
   if (!document) return nothing;
   return loadDocument(*document, false, directory, overrides, diagnostics);
+}
+
+Scene readCopy(const std::string& text, const std::string& to, Diagnostics& diagnostics) {
+  const auto document = xml::Document::parse(text, to, diagnostics);
+  if (!document) return {};
+  return loadDocument(*document, true, std::filesystem::absolute(to).parent_path().string(), {}, diagnostics);
 }
 
 std::vector<std::string> filesNamedBy(const Scene& scene) {

@@ -45,7 +45,7 @@ std::string applyBetter(const Result& result, const std::string& file) {
   }
   Diagnostics diagnostics;
   const std::string text = sceneCopy(result.study.inputs.scene, overrides, file, diagnostics);
-  parseScene(text, file, fs::absolute(file).parent_path().string(), {}, diagnostics);
+  readCopy(text, file, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   writeFileAtomically(file, text);
   return file + " is " + result.study.inputs.scene + " with " + setOptions(sets) + ".";

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "framework/input/folders.h"
+#include "framework/scene/scene_copy.h"
 #include "tests/framework/scene/scene_text.h"
 
 namespace presa::scene_test {
@@ -147,6 +148,22 @@ TEST_F(Include, OfEachOtherEndsAndSoDoesAFlood) {
   ASSERT_TRUE(found_.hasErrors());
   EXPECT_EQ(found_.all().front().code, 274);
   EXPECT_THAT(found_.all().front().message, HasSubstr("deep"));
+}
+
+// A copy in another folder includes the same file; what stands in that file cannot be written into the copy.
+TEST_F(Include, CopiesOfASceneIncludeTheSameFiles) {
+  load(R"(<include file="parts/pair.xml" prefix="a_"/><body name="own" fixed="true" material="a_wood"/>)");
+  fs::create_directories(folder_ / "far/off");
+  const std::string from = (folder_ / "main.xml").string(), to = (folder_ / "far/off/copy.xml").string();
+  const std::string text = sceneCopy(from, {{"body/own/pos", "1 2 3"}}, to, found_);
+  EXPECT_THAT(text, HasSubstr("file=\"../../parts/pair.xml\""));
+  readCopy(text, to, found_);  // from there, that folder is outside
+  EXPECT_THAT(found_.text(), HasSubstr("error[E692]"));
+  input::allowFolder(folder_.string());
+  found_ = {};
+  EXPECT_EQ(readCopy(text, to, found_).bodies.size(), 3u) << found_.text();
+  EXPECT_TRUE(sceneCopy(from, {{"body/a_arm/physics/mass", "2"}}, to, found_).empty());
+  EXPECT_THAT(found_.text(), HasSubstr("error[E202]"));
 }
 
 // A scene that arrives over the bus or from a program must not make this one read files.
