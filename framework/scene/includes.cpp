@@ -131,6 +131,11 @@ class Expansion {
         [&](const auto& a) { return !include.hasAttribute(a.first) || include.numbers(a.first).size() == a.second; });
   }
 
+  /// The root of an included file is not copied, so validation does not see its version.
+  static bool isReadable(const Element& root) {
+    return root.attribute("version").starts_with(std::to_string(kFormatMajor) + ".");
+  }
+
   void refuse(int code, const Element& include, const std::string& what, const std::string& help) {
     diagnostics_.error(code, include.where("file"), what, help);
   }
@@ -155,6 +160,10 @@ class Expansion {
     if (document->root().name() != "scene")
       return refuse(kNotIncluded, include, file + " is no scene: its root is <" + document->root().name() + ">",
                     "bodies, joints and materials stand in <scene>");
+    if (!isReadable(document->root()))
+      return refuse(kNotIncluded, include,
+                    file + " is not written in format " + std::to_string(kFormatMajor) + ".x, which this release reads",
+                    "presa check " + file + " tells what is wrong with it");
     expand(document->root(), file);
     resolveFiles(document->root(), folderOf(file));
     if (flooded_) return;

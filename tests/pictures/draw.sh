@@ -63,8 +63,8 @@ cave() {  # PROGRAMS OUT
   done
   "$presa" "${join[@]}" --head "$config/cave/head.xml" --for 20 >/dev/null &
   wait $! "${processes[@]:1}"
-  kill -INT "${processes[0]}" || true
-  wait "${processes[0]}" || true # 130
+  kill -INT "${processes[0]}"
+  wait "${processes[0]}" || (($? == 130)) # stopped by the line above
   ffmpeg -v error -y -i "$scratch/left.png" -i "$scratch/front.png" -i "$scratch/right.png" -i "$scratch/floor.png" -filter_complex \
     '[0][1][2]hstack=inputs=3[row];[3]pad=1920:480:640:0:white[below];[row][below]vstack,scale=1280:640' -frames:v 1 "$2/cave.png"
 }

@@ -109,6 +109,11 @@ TEST_F(Include, ErrorsAreTellingWhereTheyAre) {
   write("parts/rig.xml", "<rig version=\"1.0\" name=\"r\"/>");
   load("<include file=\"parts/rig.xml\"/>");
   expectError(273, 2, "is no scene");
+  for (const char* version : {"version=\"2.0\"", "version=\"new\"", ""}) {
+    write("parts/later.xml", "<scene " + std::string(version) + " name=\"l\"><world gravity=\"0 0 0\"/></scene>");
+    load("<include file=\"parts/later.xml\"/>");
+    expectError(273, 2, "is not written in format 1.x");
+  }
   load("\n<include file=\"../secret.xml\"/>");
   expectError(692, 3, "outside the folder");
   load("<include prefix=\"a\"/>");
