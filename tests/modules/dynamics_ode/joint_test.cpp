@@ -38,23 +38,13 @@ TEST(Joint, PendulumKeepsPeriodAndEnergyForAMinute) {
     Runner& runner = *pendulum.runner;
     const double arm = Pendulum::kMass * kGravity * Pendulum::kLength / 2;
     const double period = 4 * std::sqrt(pendulum.about_joint / arm) * ellipticK(std::sin(start / 2));
-    std::vector<double> angles, heights, crossings, peaks;
-    for (int i = 0; i < 12000; ++i) {
+    const Swing swung = swingOver(12000, kStep, [&] {
       runner.step();
-      angles.push_back(pendulum.angle());
-      heights.push_back(pendulum.potential());
-      const std::size_t n = angles.size();
-      if (n < 3) continue;
-      if (angles[n - 2] < 0 && angles[n - 1] >= 0)
-        crossings.push_back(runner.time - kStep * angles[n - 1] / (angles[n - 1] - angles[n - 2]));
-      if (heights[n - 2] > heights[n - 3] && heights[n - 2] >= heights[n - 1])
-        peaks.push_back(peakOf(heights[n - 3], heights[n - 2], heights[n - 1]));
-    }
-    const double measured = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
-    const auto [lowest, highest] = std::ranges::minmax(peaks);
+      return std::pair(pendulum.angle(), pendulum.potential());
+    });
     const double swing = arm * (1 - std::cos(start));
-    EXPECT_NEAR(measured / period, 1, 2e-4) << degree << " degrees";
-    EXPECT_LT((highest - lowest) / swing, 1e-4) << degree << " degrees";
+    EXPECT_NEAR(swung.period / period, 1, 2e-4) << degree << " degrees";
+    EXPECT_LT(swung.spread / swing, 1e-4) << degree << " degrees";
   }
 }
 
