@@ -29,6 +29,7 @@ FalconIo::~FalconIo() {
 }
 
 LinkSample FalconIo::latest(const Tick& tick) noexcept {
+  const bool rearming = rearm_.load(std::memory_order_acquire);  // before the sample, which may be from before it
   // catch-up ticks after a late wake-up come all at once: no time has passed between them
   if (sample_.update()) {
     silence_ = 0;
@@ -37,6 +38,7 @@ LinkSample FalconIo::latest(const Tick& tick) noexcept {
   }
   LinkSample sample = sample_.value();
   sample.valid = sample.valid && silence_ <= FalconLink::kHold;
+  sample.lost = sample.lost && !rearming;
   return sample;
 }
 
@@ -68,10 +70,12 @@ void FalconIo::run() noexcept {
 }
 
 void FalconIo::step(double now) noexcept {
-  if (rearm_.exchange(false, std::memory_order_relaxed)) link_.rearm();
+  const bool rearming = rearm_.load(std::memory_order_relaxed);
+  if (rearming) link_.rearm();
   if (force_.update()) command_ = {force_.value(), now};
   link_.step(now, command_);
   sample_.publish(link_.sample(), now);
+  if (rearming) rearm_.store(false, std::memory_order_release);
   const LinkStatus status = link_.status();
   status_.publish(status, now);
   // only now: control requests block and may spin

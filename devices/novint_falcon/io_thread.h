@@ -31,6 +31,7 @@ class FalconIo {
 
   /// State of the link. Main thread.
   LinkStatus status() noexcept;
+  /// Haptic thread; wait-free. From now on latest() does not report the fault from before.
   void rearm() noexcept { rearm_.store(true, std::memory_order_relaxed); }
   /// 0: the thread runs with SCHED_FIFO; -1: still starting up; otherwise the errno of the refusal.
   int priorityRefused() const noexcept { return refused_.load(std::memory_order_relaxed); }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "framework/core/schedule/executor.h"
 #include "framework/device/wrapped_device.h"
 
 namespace presa {
@@ -15,22 +16,24 @@ constexpr double kGone = 0.02;  // a force may take this long to zero after the 
 
 class TransportWatch final : public WrappedDevice {
  public:
-  TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
-                 const RunControl& control)
+  TransportWatch(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating)
       : WrappedDevice(std::move(device)),
         force_{"force", "N", std::min(limits.force, rating.force), std::min(limits.force_rate, rating.force_rate)},
         torque_{"torque", "N m", std::min(limits.torque, rating.torque),
-                std::min(limits.torque_rate, rating.torque_rate)},
-        control_(control) {}
+                std::min(limits.torque_rate, rating.torque_rate)} {}
 
   FingerInput read(const Tick& tick) noexcept override {
     const FingerInput input = inner().read(tick);
-    const std::uint32_t rearms = control_.rearms.load(std::memory_order_relaxed);
-    if (rearms != rearms_) lost_for_ = 0, usable_ = false;
-    rearms_ = rearms;
     if (input.lost || lost_for_ > 0) lost_for_ += tick.period;
     usable_ = usable_ || (input.valid && input.p_WH.allFinite());
     return input;
+  }
+
+  // Not RunControl::rearms: that may change after this tick has read it, and the sample would be from before the re-arm.
+  void rearm() noexcept override {
+    lost_for_ = 0;
+    usable_ = false;
+    inner().rearm();
   }
 
   void write(const Wrench& wrench, const Tick& tick) noexcept override {
@@ -66,20 +69,18 @@ class TransportWatch final : public WrappedDevice {
   }
 
   Part force_, torque_;
-  const RunControl& control_;
   Wrench sent_;
-  std::uint32_t rearms_ = 0;
   double lost_for_ = 0;  // [s]
   bool usable_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits, const DeviceRating& rating,
-                                const RunControl& control) {
+std::unique_ptr<Device> watched(std::unique_ptr<Device> device, const OutputLimits& limits,
+                                const DeviceRating& rating) {
   static const bool wanted = std::getenv("PRESA_WATCH_TRANSPORT") != nullptr;
   if (!wanted) return device;
-  return std::make_unique<TransportWatch>(std::move(device), limits, rating, control);
+  return std::make_unique<TransportWatch>(std::move(device), limits, rating);
 }
 
 }  // namespace presa

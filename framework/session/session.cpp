@@ -233,7 +233,7 @@ Session::Session(Loaded loaded, RunControl& control, Options options)
     // a tool without orientation gets no torque, and its output stage does no work for one
     if (!devices_[f]->measuresOrientation()) safety[f].limits.torque = 0;
     devices_[f] = watched(std::move(devices_[f]), safety[f].limits,
-                          ratingOf(bindingOf(world_->rig, world_->scene.devices[f].role)), control);
+                          ratingOf(bindingOf(world_->rig, world_->scene.devices[f].role)));
   }
   GraphBuilder builder;
   if (!devices_.empty()) builder.add(std::make_unique<DeviceInput>(devices_, control));

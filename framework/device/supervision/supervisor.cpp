@@ -94,7 +94,7 @@ void runCycles(Supervisor& supervisor, double period, int life_fd) {
 Supervisor::Supervisor(SupervisorShare& share, std::unique_ptr<Device> device, const DeviceRating& rating,
                        CountAllocations count)
     : share_(share),
-      device_(watched(std::move(device), limitsOf(rating), rating, control_)),
+      device_(watched(std::move(device), limitsOf(rating), rating)),
       keeper_(rating),
       count_(count),
       allocated_before_(count()) {}
@@ -103,7 +103,6 @@ bool Supervisor::cycle(bool alone, double elapsed) noexcept {
   time_ += elapsed;
   const Tick tick{.index = report_.cycles, .time = time_, .period = elapsed};
   if (const std::uint32_t rearms = share_.rearms.load(std::memory_order_relaxed); rearms != report_.rearms_done) {
-    control_.rearms.store(rearms, std::memory_order_relaxed);
     device_->rearm();
     keeper_.rearm();
     report_.rearms_done = rearms;

@@ -30,7 +30,6 @@ class Supervisor {
 
  private:
   SupervisorShare& share_;
-  RunControl control_;  // of the watched device, in tests
   std::unique_ptr<Device> device_;
   CommandKeeper keeper_;
   CountAllocations count_;

@@ -162,6 +162,18 @@ TEST(FalconIo, AFaultIsLeftByArmingAgain) {
   waitUntil([&] { return io.latest(kTick).valid; });
 }
 
+// Otherwise the output stage would latch the fault again in the tick of its re-arm.
+TEST(FalconIo, TheFaultFromBeforeARearmIsNotReportedAfterIt) {
+  FalconBench bench;
+  FalconIo io(bench.transport(), {}, {});
+  waitUntil([&] { return io.latest(kTick).valid; });
+  bench.with([](auto& falcon) { falcon.homed = 3; });
+  waitUntil([&] { return io.latest(kTick).lost; });
+  const std::unique_lock stuck(bench.mutex);  // the I/O thread waits
+  io.rearm();
+  EXPECT_FALSE(io.latest(kTick).lost);
+}
+
 TEST(FalconIo, EndsWhileADeviceIsStillSilent) {
   FalconBench bench;
   bench.falcon.loaded = false;

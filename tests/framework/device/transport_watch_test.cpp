@@ -24,7 +24,7 @@ class TransportWatchTest : public testing::Test {
     ::setenv("PRESA_WATCH_TRANSPORT", "1", 1);
     auto port = std::make_unique<Port>();
     port_ = port.get();
-    device_ = watched(std::move(port), limits(), rating(), control_);
+    device_ = watched(std::move(port), limits(), rating());
     EXPECT_NE(device_.get(), port_);
   }
   void tick(double force) {
@@ -35,7 +35,6 @@ class TransportWatchTest : public testing::Test {
   }
   virtual const DeviceRating& rating() const { return kRating; }
   virtual OutputLimits limits() const { return {.force = 2, .force_rate = 1000}; }
-  RunControl control_;
   Port* port_ = nullptr;
   std::unique_ptr<Device> device_;
   Tick tick_{0, 0, 1e-3};
@@ -79,8 +78,16 @@ TEST_F(TransportWatchTest, ARearmForgivesIt) {
   tick(0);
   port_->input.lost = false;
   for (int i = 0; i < 100; ++i) tick(0);
-  ++control_.rearms;
+  device_->rearm();
   tick(1);
+}
+// The sample of the tick before the re-arm still says lost.
+TEST_F(TransportWatchTest, ARearmForgivesTheLossOfTheTickBefore) {
+  port_->input.lost = true;
+  tick(0);
+  device_->rearm();
+  port_->input.lost = false;
+  for (int i = 0; i < 100; ++i) tick(1);
 }
 
 // The torque has limits of its own, and keeps the same promises.
