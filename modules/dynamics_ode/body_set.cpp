@@ -81,8 +81,8 @@ Pose BodySet::poseOf(const Entry& entry, const State& state) {
 
 bool BodySet::sane(const State& state) {
   // comparisons are written so that NaN fails
-  return state.p_WCm.norm() < kMaxReach && state.v_WCm.norm() < kMaxSpeed && state.w_WB.norm() < kMaxSpin &&
-         std::abs(state.q_WB.norm() - 1) < 1e-6;
+  return state.p_WCm.squaredNorm() < kMaxReach * kMaxReach && state.v_WCm.squaredNorm() < kMaxSpeed * kMaxSpeed &&
+         state.w_WB.squaredNorm() < kMaxSpin * kMaxSpin && std::abs(state.q_WB.squaredNorm() - 1) < 2e-6;
 }
 
 BodyInertiaState BodySet::inertiaState(std::size_t i) const {

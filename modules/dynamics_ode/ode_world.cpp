@@ -86,7 +86,7 @@ struct OdeWorld::Impl {
       engine_solvers.emplace(world->scene, engine, bodies, options);
     }
     if (!world->scene.joints.empty()) {
-      links.emplace(*world);
+      links.emplace(*world, bodies);
       if (!own_solvers) engine_joints.emplace(*world, bodies, engine.world());
     }
     if (options.method.sleeping) sleep.emplace(bodies, drivenBodies(world->scene));

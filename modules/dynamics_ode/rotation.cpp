@@ -29,13 +29,14 @@ Eigen::Vector4d rate(const Eigen::Vector4d& xyzw, const Mat3& inverse_inertia, c
 }
 
 // The rotation vector over `h` of a body with angular momentum L, in the axes of the body, from the derivatives of its
-// angular velocity by Euler's equations L' = L x w.
-Vec3 magnusTurn(const Vec3& L, const Mat3& inverse_inertia, double h) {
-  const Vec3 w = inverse_inertia * L, L1 = L.cross(w), w1 = inverse_inertia * L1;
-  const Vec3 L2 = L1.cross(w) + L.cross(w1), w2 = inverse_inertia * L2;
-  const Vec3 w3 = inverse_inertia * Vec3(L2.cross(w) + 2 * L1.cross(w1) + L.cross(w2));
-  const Vec3 third = w2 / 6 + w.cross(w1) / 12, fourth = (w3 + w.cross(w2)) / 24;
-  return h * (w + h * (w1 / 2 + h * (third + h * fourth)));
+// angular velocity by Euler's equations L' = L x w. `spin_of(L)` is w.
+template <class SpinOf>
+Vec3 magnusTurn(const Vec3& L, const SpinOf& spin_of, double h) {
+  const Vec3 w = spin_of(L), L1 = L.cross(w), w1 = spin_of(L1);
+  const Vec3 L2 = L1.cross(w) + L.cross(w1), w2 = spin_of(L2);
+  const Vec3 w3 = spin_of(L2.cross(w) + 2 * L1.cross(w1) + L.cross(w2));
+  const Vec3 commutator = w.cross(w1 + h / 2 * w2) / 12;
+  return h * (w + h * (w1 / 2 + h * (w2 / 6 + commutator + h / 24 * w3)));
 }
 
 // exp(turn / 2) by its series, to rounding for turns of kMaxSeriesAngle
@@ -46,19 +47,41 @@ Quat smallTurn(const Vec3& turn) {
   return {cosine, v.x(), v.y(), v.z()};
 }
 
-}  // namespace
+// By a step of Newton's method, which doubles the digits of a norm that is nearly 1.
+void renormalise(Quat& q) { q.coeffs() *= 1.5 - 0.5 * q.squaredNorm(); }
 
-void magnusRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {
-  const int substeps = substepsOf(w_WB.norm() * h, kMaxSeriesAngle);
+template <class SpinOf>
+void turnFreely(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const SpinOf& spin_of, double h) {
+  const double squared_angle = h * h * w_WB.squaredNorm();
+  const bool is_small = !(squared_angle > kMaxSeriesAngle * kMaxSeriesAngle);
+  const int substeps = is_small ? 1 : substepsOf(std::sqrt(squared_angle), kMaxSeriesAngle);
   Mat3 R = q_WB.toRotationMatrix();
   Vec3 L_B = inertia * (R.transpose() * w_WB);
   const Vec3 L_W = R * L_B;
   for (int i = 0; i < substeps; ++i) {
-    q_WB = (q_WB * smallTurn(magnusTurn(L_B, inverse_inertia, h / substeps))).normalized();
+    q_WB = q_WB * smallTurn(magnusTurn(L_B, spin_of, h / substeps));
+    renormalise(q_WB);
     R = q_WB.toRotationMatrix();
     L_B = R.transpose() * L_W;
   }
-  w_WB = R * (inverse_inertia * L_B);
+  w_WB = R * spin_of(L_B);
+}
+
+// of a symmetric matrix
+bool isDiagonal(const Mat3& m) { return m(1, 0) == 0 && m(2, 0) == 0 && m(2, 1) == 0; }
+
+}  // namespace
+
+// Of most bodies the axes are principal ones: the same bits in less time.
+void magnusRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {
+  if (isDiagonal(inverse_inertia)) {
+    const Vec3 inverse = inverse_inertia.diagonal();
+    turnFreely(
+        q_WB, w_WB, inertia, [&](const Vec3& L) -> Vec3 { return inverse.cwiseProduct(L); }, h);
+  } else {
+    turnFreely(
+        q_WB, w_WB, inertia, [&](const Vec3& L) -> Vec3 { return inverse_inertia * L; }, h);
+  }
 }
 
 void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h) {

@@ -44,6 +44,10 @@ std::span<const int> lockedRowsOf(JointType type) {
   }
 }
 
+bool hasLaws(const JointAxis& axis) {
+  return axis.lower || axis.upper || axis.hasSpring() || axis.friction > 0 || axis.max_force > 0;
+}
+
 bool isOneJoint(const ContactProblem& problem) {
   if (problem.joints.size() != 1 || problem.bodies.size() > 2) return false;
   if (!problem.contacts.empty() || !problem.fingers.empty() || !problem.motors.empty()) return false;
@@ -102,7 +106,8 @@ void Side::take(ContactProblem& problem, std::int32_t i, const Mat3& R_JW, const
   inverse_inertia = R_JB * body->inverse_inertia_B * R_JB.transpose();
   lever = crossing(R_JW * (p_WJ - body->p_WCm));
   v = R_JW * (body->v_WCm + h / body->mass * body->force_W);
-  w = R_JW * body->w_WB + h * (inverse_inertia * (R_JW * body->torque_W));
+  w = R_JW * body->w_WB;
+  if (!body->torque_W.isZero(0)) w += h * (inverse_inertia * (R_JW * body->torque_W));
 }
 
 void Side::addTo(Matrix6& compliance) const {
@@ -195,7 +200,7 @@ class Pair {
       compliance(i, i) = 1;
     }
     inverse_.compute(compliance);
-    if (axis_ < 0) return;
+    if (axis_ < 0 || !hasLaws(joint_.joint->axes[0])) return;
     const JointAxis& axis = joint_.joint->axes[0];
     response_ = inverse_ * along_;
     inertia_ = 1 / (inertia_ - along_.dot(response_));
@@ -277,7 +282,9 @@ class Pair {
       side->body->w_WB = side->w_end_W;
     }
     joint_.f_B_W = R_JW_.transpose() * impulse_.head<3>() / h_;
-    for (std::size_t i = 0; i < locked_.size(); ++i) joint_.lead[i] = goal_[locked_[i]] + closes_[locked_[i]] / h_;
+    // with the miss that was small enough: otherwise the next guess repeats it, and they add up
+    const Row6 lead = goal_ + miss_ + closes_ / h_;
+    for (std::size_t i = 0; i < locked_.size(); ++i) joint_.lead[i] = lead[locked_[i]];
     if (axis_ >= 0) joint_.lead[kAxisLead] = turning_;
   }
 

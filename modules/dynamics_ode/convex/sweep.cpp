@@ -64,20 +64,17 @@ Sweep::Sweep(const BodySet& bodies)
 
 // By a bound of the angle, without its arc tangent: true when all bodies move little.
 bool Sweep::moveLittle(const BodySet& bodies) const {
-  double longest = 0;
+  const double little = kShortWay * thinnest_ / (2 * kRoundedUp);
   for (std::size_t i = 0; i < rims_.size(); ++i) {
     if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
     const BodySet::Motion &begin = bodies.motionAtBegin(i), end = bodies.motion(i);
     const double sine = (end.q_WB * begin.q_WB.conjugate()).vec().norm();  // of half the angle
-    longest = std::max(longest, (end.p_WCm - begin.p_WCm).norm() + rims_[i] * std::numbers::pi * sine);
+    if (!((end.p_WCm - begin.p_WCm).norm() + rims_[i] * std::numbers::pi * sine < little)) return false;
   }
-  return 2 * kRoundedUp * longest < kShortWay * thinnest_;
+  return true;
 }
 
-// False when all bodies move little.
-bool Sweep::measureWays(const BodySet& bodies) {
-  if (moveLittle(bodies)) return false;
-  double longest = 0;
+void Sweep::measureWays(const BodySet& bodies) {
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     Way& way = ways_[i] = Way();
     if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
@@ -86,12 +83,6 @@ bool Sweep::measureWays(const BodySet& bodies) {
     way.shift = end.p_WCm - begin.p_WCm;
     way.turn = rotationVector(end.q_WB * begin.q_WB.conjugate());
   }
-  for (const Shape& shape : shapes_) {
-    if (shape.hull == nullptr) continue;
-    const Way& way = ways_[shape.body];
-    longest = std::max(longest, way.shift.norm() + shape.rim * way.turn.norm());
-  }
-  return 2 * longest > kShortWay * thinnest_;
 }
 
 double Sweep::travel(std::size_t A, std::size_t B) const {
@@ -172,8 +163,10 @@ bool Sweep::stopPair(const BodySet& bodies, const BroadPhase::Pair& pair) {
 }
 
 void Sweep::stopShort(BodySet& bodies, double h) {
-  if (!measureWays(bodies)) return;
+  if (moveLittle(bodies)) return;
   const std::vector<BroadPhase::Pair>& pairs = broad_phase_.find(bodies, h, 0);
+  if (pairs.empty()) return;
+  measureWays(bodies);
   bool stopped = true;
   for (int round = 0; stopped && round < kRounds; ++round) {
     stopped = false;

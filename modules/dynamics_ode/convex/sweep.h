@@ -37,7 +37,7 @@ class Sweep {
   };
   static constexpr std::size_t kNone = SIZE_MAX;
   bool moveLittle(const BodySet& bodies) const;
-  bool measureWays(const BodySet& bodies);
+  void measureWays(const BodySet& bodies);
   bool stopPair(const BodySet& bodies, const BroadPhase::Pair& pair);
   bool stopShapes(const BodySet& bodies, std::size_t A, std::size_t B);
   // of shapes from here

@@ -20,7 +20,7 @@ double nearest(double angle, double to) { return to + std::remainder(angle - to,
 
 }  // namespace
 
-JointSet::JointSet(const World& world) {
+JointSet::JointSet(const World& world, const BodySet& bodies) {
   const Scene& scene = world.scene;
   for (const Joint& joint : scene.joints) {
     Link& link = links_.emplace_back();
@@ -29,14 +29,14 @@ JointSet::JointSet(const World& world) {
     link.X_WB = scene.bodies[joint.body].X_WB;
     link.X_WA = to_world ? Pose() : scene.bodies[joint.to].X_WB;
     link.frames = framesOf(joint, link.X_WB, link.X_WA);
-    link.p_BCm = world.inertias[joint.body].p_BCm;
-    if (!to_world) link.p_ACm = world.inertias[joint.to].p_BCm;
+    if (!bodies.isFixed(joint.body)) link.frames.X_BJ.p -= world.inertias[joint.body].p_BCm;
+    if (!to_world && !bodies.isFixed(joint.to)) link.frames.X_AJ.p -= world.inertias[joint.to].p_BCm;
   }
 }
 
 // A fixed body of the scene has no state of its own.
 Pose JointSet::poseNow(std::size_t body, const Pose& start, const BodySet& bodies) {
-  return body == Joint::kWorld || bodies.isFixed(body) ? start : bodies.pose(body);
+  return body == Joint::kWorld || bodies.isFixed(body) ? start : bodies.centrePose(body);
 }
 
 void JointSet::link(const BodySet& bodies, Islands& islands) const {
@@ -68,16 +68,15 @@ std::size_t JointSet::movingBody(std::size_t i, const BodySet& bodies) const {
 
 ContactProblem::Joint JointSet::problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const {
   const Link& link = links_[i];
-  const auto placed = [&](std::int32_t in, std::size_t body, const Pose& start, const Pose& X_J, const Vec3& centre) {
-    if (in == ContactProblem::kFixed) return poseNow(body, start, bodies) * X_J;
-    return Pose{X_J.p - centre, X_J.q};
+  const auto placed = [&](std::int32_t in, std::size_t body, const Pose& start, const Pose& X_J) {
+    return in == ContactProblem::kFixed ? poseNow(body, start, bodies) * X_J : X_J;
   };
   ContactProblem::Joint joint;
   joint.A = A;
   joint.B = B;
   joint.joint = link.joint;
-  joint.frames.X_AJ = placed(A, link.joint->to, link.X_WA, link.frames.X_AJ, link.p_ACm);
-  joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ, link.p_BCm);
+  joint.frames.X_AJ = placed(A, link.joint->to, link.X_WA, link.frames.X_AJ);
+  joint.frames.X_BJ = placed(B, link.joint->body, link.X_WB, link.frames.X_BJ);
   joint.begin = link.at;
   joint.position = link.position;
   joint.f_B_W = link.f_B_W;

@@ -13,7 +13,7 @@ namespace presa::ode {
 /// Thread: dynamics.
 class JointSet {
  public:
-  explicit JointSet(const World& world);
+  JointSet(const World& world, const BodySet& bodies);
 
   std::size_t size() const noexcept { return links_.size(); }
   bool empty() const noexcept { return links_.empty(); }
@@ -27,29 +27,30 @@ class JointSet {
   /// Joint i of a problem in which its bodies have the indices A and B, or ContactProblem::kFixed.
   ContactProblem::Joint problemOf(std::size_t i, const BodySet& bodies, std::int32_t A, std::int32_t B) const;
   const Joint& joint(std::size_t i) const { return *links_[i].joint; }
-  /// Keeps what the solver found of joint i for the next step, and how its leads go on: as a line, as a parabola where it
-  /// is the only joint of its island. In a loop a part of them is undetermined, and would run away on a parabola.
+  /// Keeps what the solver found of joint i for the next step, and how its leads go on: as a line, as a cubic where it is
+  /// the only joint of its island. In a loop a part of them is undetermined, and would run away on a cubic.
   void keep(std::size_t i, const ContactProblem::Joint& solved, bool alone) {
     Link& link = links_[i];
     link.f_B_W = solved.f_B_W;
     for (std::size_t k = 0; k < solved.lead.size(); ++k) {
-      const double grows = solved.lead[k] - link.lead[k], grew = link.lead[k] - link.last_lead[k];
-      link.next_lead[k] = solved.lead[k] + (alone ? 2 * grows - grew : grows);
+      const double grows = solved.lead[k] - link.lead[k], bends = grows - link.grows[k], twists = bends - link.bends[k];
+      link.next_lead[k] = solved.lead[k] + grows + (alone ? bends + twists : 0);
+      link.lead[k] = solved.lead[k];
+      link.grows[k] = grows;
+      link.bends[k] = bends;
     }
-    link.last_lead = link.lead;
-    link.lead = solved.lead;
   }
 
  private:
   struct Link {
     const Joint* joint = nullptr;
-    JointFrames frames;                               // in the frames of the bodies
-    Vec3 p_BCm = Vec3::Zero(), p_ACm = Vec3::Zero();  // centres of mass
-    Pose X_WB, X_WA;                                  // at the start
-    JointPose at;                                     // at the last read()
+    JointFrames
+        frames;       // in the axes of the bodies, from their centres of mass; of what the scene fixes: from its origin
+    Pose X_WB, X_WA;  // at the start
+    JointPose at;     // at the last read()
     std::array<double, Joint::kMaxAxes> position{};
-    std::array<double, 6> last_lead{}, lead{}, next_lead{};
-    Vec3 f_B_W = Vec3::Zero();  // in the last step
+    std::array<double, 6> lead{}, grows{}, bends{}, next_lead{};  // grows, bends: differences to the step before
+    Vec3 f_B_W = Vec3::Zero();                                    // in the last step
   };
   static Pose poseNow(std::size_t body, const Pose& start, const BodySet& bodies);
 
