@@ -20,6 +20,7 @@ constexpr double kPenRadius = 0.003;
 constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;
+constexpr double kLongestArrow = 10;                          ///< [m]; a force that is not a number has none, either
 constexpr double kConeShortest = 0.004, kConeLongest = 0.12;  ///< heights [m]
 
 /// Blended, without depth writes, in render bin `order` (after opaque objects).
@@ -145,19 +146,20 @@ void ContactGlyphs::show(const ShownParts& parts) {
 
 void ContactGlyphs::updateForce(const FingerView& view, FingerGlyph& finger) {
   const double length = kArrowLengthPerNewton * view.f_H_W.norm();
-  const bool pulled = view.touches() && length > 1e-4;
+  const bool pulled = view.valid && length > 1e-4 && length < kLongestArrow;
   setShown(*finger.shaft, pulled);
   setShown(*finger.head, pulled);
   setShown(*finger.cone, view.touches());
-  if (!view.touches()) return;
   if (pulled) {
     const Vec3 direction = view.f_H_W.normalized();
     const double head = std::min(kHeadLength, 0.6 * length);
     const double thick = std::min(1.0, head / kHeadLength);
-    finger.shaft->setMatrix(alongZ(view.p_WC, direction, {kShaftRadius * thick, kShaftRadius * thick, length - head}));
-    finger.head->setMatrix(
-        alongZ(view.p_WC + (length - head) * direction, direction, {kHeadRadius * thick, kHeadRadius * thick, head}));
+    finger.shaft->setMatrix(
+        alongZ(view.forceBegin(), direction, {kShaftRadius * thick, kShaftRadius * thick, length - head}));
+    finger.head->setMatrix(alongZ(view.forceBegin() + (length - head) * direction, direction,
+                                  {kHeadRadius * thick, kHeadRadius * thick, head}));
   }
+  if (!view.touches()) return;
   const auto [height, rim] = coneSize(view);
   finger.cone->setMatrix(alongZ(view.p_WC, view.nhat_W, {rim, rim, height}));
   finger.cone_color->set(osg::Vec3(toOsg(stateColor(view.mode))));

@@ -14,6 +14,7 @@ namespace {
 void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, FingerView& finger) {
   finger.p_WH = contact.p_WH;
   finger.p_WP = contact.p_WP;
+  finger.f_H_W = contact.f_H_W;  // effects of the scene push without contact, too
   const auto body = static_cast<std::size_t>(contact.body);
   if (contact.mode == ContactMode::kNone || contact.body == kNoBody || body >= X_WB.size()) return;
   finger.mode = contact.mode;
@@ -21,7 +22,6 @@ void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, F
   finger.p_WP = X_WB[body] * contact.p_BP;
   finger.p_WC = X_WB[body] * contact.p_BC;
   finger.nhat_W = X_WB[body].q * contact.nhat_B;
-  finger.f_H_W = contact.f_H_W;
   finger.normal_force = contact.normal_force;
   finger.tangential_force = contact.tangential_force_W.norm();
   finger.friction_static = contact.friction_static;

@@ -32,6 +32,10 @@ struct FingerView {
   double force_limit = 0;  ///< force limit of the device role [N]
 
   bool touches() const noexcept { return mode != ContactMode::kNone && body != kNoBody; }
+  /// Where the arrow of the force begins: at the contact, or, where an effect of the scene pushes, at the fingertip [m].
+  const Vec3& forceBegin() const noexcept { return touches() ? p_WC : p_WP; }
+  /// Where it ends [m].
+  Vec3 forceEnd() const { return forceBegin() + kArrowLengthPerNewton * f_H_W; }
   /// Used fraction of the friction cone: tangential / (friction * normal); 0 without contact, 1 while slipping.
   double frictionUse() const noexcept;
 };

@@ -33,7 +33,8 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     chain) args+=(--camera "0.45,-0.65,0.55:0,0,0.4") ;; # between the posts
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
     groove) args+=(--screenshot-at 3.5) ;;
-    guide_path | honey | wind) args+=(--screenshot-at 1.7) ;;
+    guide_path) args+=(--screenshot-at 1.17) ;;
+    honey | wind) args+=(--screenshot-at 1.7) ;;
     guide_wall) args+=(--screenshot-at 2) ;;
     hand_over | stick_slip) args+=(--screenshot-at 4) ;;
     incline) args+=(--screenshot-at 2) ;; # the ice has slid, the felt has not
