@@ -55,14 +55,21 @@ std::string pathSection(const RunResult& result, const std::optional<GraspFigure
          "slips they part. States: 0 no contact, 1 stick, 2 slip; the strip above them names the touched body.</p>\n";
 }
 
+bool everTouched(const RunResult::ContactPoint& point) {
+  const auto in = [&](ContactMode mode) { return point.summary.seconds[static_cast<std::size_t>(mode)]; };
+  return in(ContactMode::kStick) + in(ContactMode::kSlip) > 0;
+}
+
 std::string frictionSection(const RunResult& result, const std::optional<GraspFigures>& grasp) {
-  if (!result.trace || result.contact_points.empty()) return {};
-  std::string out = "<h2>Friction</h2>\n<div class=\"pair\">\n";
+  if (!result.trace) return {};
+  std::string plots;
   for (std::size_t f = 0; f < result.contact_points.size(); ++f) {
-    out += "<div><h3>" + escape(result.contact_points[f].name) + "</h3>\n" +
-           svg::render(frictionFigure(result, grasp, f)) + "</div>\n";
+    if (!everTouched(result.contact_points[f])) continue;
+    plots += "<div><h3>" + escape(result.contact_points[f].name) + "</h3>\n" +
+             svg::render(frictionFigure(result, grasp, f)) + "</div>\n";
   }
-  return out +
+  if (plots.empty()) return {};
+  return "<h2>Friction</h2>\n<div class=\"pair\">\n" + plots +
          "</div>\n<p class=\"caption\">A contact sticks below the slip line and slides along the dynamic one.</p>\n";
 }
 

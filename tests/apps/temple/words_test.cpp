@@ -68,7 +68,8 @@ TEST_P(Words, TellWhatStandsAndOfferEachTask) {
     EXPECT_EQ(placesIn(words.offers), std::vector<std::string>{"time"}) << words.offers;
     EXPECT_TRUE(placesIn(words.stands).empty()) << words.stands;
     for (const std::string& other : shippedLanguages()) {
-      if (other != GetParam()) EXPECT_NE(taskWords(other, task).stands, words.stands);
+      if (other == GetParam()) continue;
+      EXPECT_NE(taskWords(other, task).stands, words.stands);
     }
   }
   EXPECT_EQ(all.size(), 2 * shippedNames().size());
