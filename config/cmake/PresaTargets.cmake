@@ -122,9 +122,10 @@ function(presa_add_each folder)
   endforeach()
 endfunction()
 
-# presa_test(NAME LIBRARIES … LAUNCHER … ALONE …): one GoogleTest program from every .cpp of the calling folder, run by the launcher
+# presa_test(NAME REAL_TIME LIBRARIES … LAUNCHER … ALONE …): one GoogleTest program from every .cpp of the calling folder, run by the launcher;
+# REAL_TIME: its threads keep periods of a millisecond, so that no other test may run beside it
 function(presa_test name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES;LAUNCHER;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME" "" "LIBRARIES;LAUNCHER;ALONE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
@@ -140,5 +141,5 @@ function(presa_test name)
     set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")
   endif()
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
-    ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
+    RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
 endfunction()

@@ -12,7 +12,7 @@ namespace {
 
 using Verdict = DeviceFinding::Verdict;
 
-constexpr double kPatience = 1.0;        // [s] to wait for an answer; asking for firmware takes at most half of it
+constexpr double kPatience = 5;          // [s] to wait for a verdict; on an idle machine it takes half a second
 constexpr std::int64_t kStep = 500'000;  // [ns]
 
 /// Asks a device for its state, with requests of zero force.
@@ -39,6 +39,10 @@ DeviceFinding findingOf(const LinkStatus& status, const std::string& device, boo
       return {Verdict::kFine, 0, device, "no firmware yet: it will be loaded when the device is opened", ""};
     return {Verdict::kProblem, codeOf(status.fault), device, describe(status.fault), remedy(status.fault)};
   }
+  if (status.state == LinkState::kStarting)
+    return {Verdict::kProblem, kUsbFails, device,
+            "its USB transfers take too long: it is not known whether firmware runs",
+            "close programs that load this machine, then ask again"};
   if (status.homed != kAllHomed)
     return {Verdict::kWarning, kNotHomed, device, "its firmware runs, but the grip is not homed",
             remedy(LinkFault::kHomingLost)};

@@ -6,7 +6,7 @@
 namespace presa::falcon {
 
 /// Finds every connected Falcon, the reasons why one cannot be used, and errors in the binding's settings. Waits up to
-/// a second per device; sends no force, loads no firmware.
+/// five seconds per device; sends no force, loads no firmware.
 std::vector<DeviceFinding> diagnose(const DeviceBinding& binding);
 
 }  // namespace presa::falcon
