@@ -29,7 +29,8 @@ FalconIo::~FalconIo() {
 }
 
 LinkSample FalconIo::latest(const Tick& tick) noexcept {
-  const bool rearming = rearm_.load(std::memory_order_acquire);  // before the sample, which may be from before it
+  // asked before the sample is taken, which may be from before the re-arm
+  const bool rearming = rearms_done_.load(std::memory_order_acquire) != rearms_.load(std::memory_order_relaxed);
   // catch-up ticks after a late wake-up come all at once: no time has passed between them
   if (sample_.update()) {
     silence_ = 0;
@@ -70,12 +71,12 @@ void FalconIo::run() noexcept {
 }
 
 void FalconIo::step(double now) noexcept {
-  const bool rearming = rearm_.load(std::memory_order_relaxed);
-  if (rearming) link_.rearm();
+  const std::uint32_t rearms = rearms_.load(std::memory_order_relaxed);
+  if (rearms != rearms_done_.load(std::memory_order_relaxed)) link_.rearm();
   if (force_.update()) command_ = {force_.value(), now};
   link_.step(now, command_);
   sample_.publish(link_.sample(), now);
-  if (rearming) rearm_.store(false, std::memory_order_release);
+  rearms_done_.store(rearms, std::memory_order_release);
   const LinkStatus status = link_.status();
   status_.publish(status, now);
   // only now: control requests block and may spin

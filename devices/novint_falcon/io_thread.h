@@ -32,7 +32,7 @@ class FalconIo {
   /// State of the link. Main thread.
   LinkStatus status() noexcept;
   /// Haptic thread; wait-free. From now on latest() does not report the fault from before.
-  void rearm() noexcept { rearm_.store(true, std::memory_order_relaxed); }
+  void rearm() noexcept { rearms_.fetch_add(1, std::memory_order_relaxed); }
   /// 0: the thread runs with SCHED_FIFO; -1: still starting up; otherwise the errno of the refusal.
   int priorityRefused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
@@ -49,7 +49,8 @@ class FalconIo {
   LatestValue<LinkSample> sample_;
   LatestValue<LinkStatus> status_;
   LatestValue<Vec3> force_;
-  std::atomic<bool> stop_{false}, rearm_{false};
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint32_t> rearms_{0}, rearms_done_{0};  // done: contained in the published sample
   std::atomic<int> refused_{-1};
   std::thread thread_;
 };

@@ -20,7 +20,6 @@ constexpr double kPenRadius = 0.003;
 constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;
-constexpr double kLongestArrow = 10;                          ///< [m]; a force that is not a number has none, either
 constexpr double kConeShortest = 0.004, kConeLongest = 0.12;  ///< heights [m]
 
 /// Blended, without depth writes, in render bin `order` (after opaque objects).
@@ -146,7 +145,7 @@ void ContactGlyphs::show(const ShownParts& parts) {
 
 void ContactGlyphs::updateForce(const FingerView& view, FingerGlyph& finger) {
   const double length = kArrowLengthPerNewton * view.f_H_W.norm();
-  const bool pulled = view.valid && length > 1e-4 && length < kLongestArrow;
+  const bool pulled = view.isPushed();
   setShown(*finger.shaft, pulled);
   setShown(*finger.head, pulled);
   setShown(*finger.cone, view.touches());

@@ -4,6 +4,11 @@
 
 namespace presa::view {
 
+bool FingerView::isPushed() const noexcept {
+  const double length = kArrowLengthPerNewton * f_H_W.norm();
+  return valid && length > 1e-4 && length < kLongestArrow;
+}
+
 double FingerView::frictionUse() const noexcept {
   const double bound = friction * normal_force;
   return bound > 0 ? tangential_force / bound : 0.0;

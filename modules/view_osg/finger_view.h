@@ -9,6 +9,7 @@
 namespace presa::view {
 
 inline constexpr double kArrowLengthPerNewton = 0.010;  ///< [m/N]
+inline constexpr double kLongestArrow = 10;             ///< [m]
 inline constexpr double kPenLength = 0.12;              ///< of a tool whose device measures its orientation [m]
 
 struct FingerView {
@@ -32,7 +33,9 @@ struct FingerView {
   double force_limit = 0;  ///< force limit of the device role [N]
 
   bool touches() const noexcept { return mode != ContactMode::kNone && body != kNoBody; }
-  /// Where the arrow of the force begins: at the contact, or, where an effect of the scene pushes, at the fingertip [m].
+  /// The force has an arrow: neither too small to be seen nor no number.
+  bool isPushed() const noexcept;
+  /// Where it begins: at the contact, or, where an effect of the scene pushes, at the fingertip [m].
   const Vec3& forceBegin() const noexcept { return touches() ? p_WC : p_WP; }
   /// Where it ends [m].
   Vec3 forceEnd() const { return forceBegin() + kArrowLengthPerNewton * f_H_W; }

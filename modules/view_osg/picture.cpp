@@ -168,7 +168,7 @@ void Picture::updateSubject(const ViewFrame& frame, const std::vector<FingerView
     if (!finger.valid) continue;
     subject_.push_back({finger.p_WP, finger.radius});
     if (finger.oriented) subject_.push_back({finger.p_WP + kPenLength * (finger.q_WT * Vec3::UnitZ()), 0.0});
-    if (finger.forceEnd().allFinite()) subject_.push_back({finger.forceEnd(), 0.0});
+    if (finger.isPushed()) subject_.push_back({finger.forceEnd(), 0.0});
     if (!finger.touches() || !whole_cones_ || !parts_[ShownPart::kCones]) continue;
     const auto [height, rim] = coneSize(finger);
     subject_.push_back({finger.p_WC + height * finger.nhat_W, rim});

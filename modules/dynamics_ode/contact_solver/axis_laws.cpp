@@ -12,6 +12,10 @@ void bound(AxisLaw& law, double impulse) noexcept {
 
 }  // namespace
 
+bool hasLaws(const JointAxis& axis) noexcept {
+  return axis.lower || axis.upper || axis.friction > 0 || axis.max_force > 0 || axis.hasSpring();
+}
+
 AxisLaws lawsOf(const JointAxis& axis, double position, double u, double k, double h) noexcept {
   const double fastest = axis.turns ? kMaxTurning : kMaxClosing;
   AxisLaws laws;

@@ -41,6 +41,9 @@ struct AxisLaws {
   }
 };
 
+/// Whether lawsOf() gives any.
+bool hasLaws(const JointAxis& axis) noexcept;
+
 /// At `position` [m, rad] and speed `u` [m/s, rad/s] at the start of a step of `h` [s]. What is rigid has the stiffness
 /// `k`. Stops that were passed push back with at most kMaxClosing or kMaxTurning.
 AxisLaws lawsOf(const JointAxis& axis, double position, double u, double k, double h) noexcept;

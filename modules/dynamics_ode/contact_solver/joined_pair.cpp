@@ -44,10 +44,6 @@ std::span<const int> lockedRowsOf(JointType type) {
   }
 }
 
-bool hasLaws(const JointAxis& axis) {
-  return axis.lower || axis.upper || axis.hasSpring() || axis.friction > 0 || axis.max_force > 0;
-}
-
 bool isOneJoint(const ContactProblem& problem) {
   if (problem.joints.size() != 1 || problem.bodies.size() > 2) return false;
   if (!problem.contacts.empty() || !problem.fingers.empty() || !problem.motors.empty()) return false;

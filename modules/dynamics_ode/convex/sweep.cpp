@@ -69,7 +69,8 @@ bool Sweep::moveLittle(const BodySet& bodies) const {
     if (first_convex_[i] == kNone || !bodies.awake(i)) continue;
     const BodySet::Motion &begin = bodies.motionAtBegin(i), end = bodies.motion(i);
     const double sine = (end.q_WB * begin.q_WB.conjugate()).vec().norm();  // of half the angle
-    if (!((end.p_WCm - begin.p_WCm).norm() + rims_[i] * std::numbers::pi * sine < little)) return false;
+    const double way = (end.p_WCm - begin.p_WCm).norm() + rims_[i] * std::numbers::pi * sine;
+    if (way >= little) return false;  // one that is not a number is none: its body is frozen after this
   }
   return true;
 }

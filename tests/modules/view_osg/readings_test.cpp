@@ -31,6 +31,28 @@ TEST(Readings, GripForceIsWhatTheNormalsCancel) {
   EXPECT_DOUBLE_EQ(gripForce({}), 0);
 }
 
+// A magnet pulls a fingertip that touches nothing: the arrow begins at its centre. No arrow for no force or no number.
+TEST(Readings, TheForceOfAnEffectHasAnArrowWithoutContact) {
+  auto run = view_test::makePinchRun(RunOptions::View::kOffscreen, "");
+  const auto states = view_test::makePinchStates(*run.world, {0, 0, 0.08});
+  ViewFrame frame;
+  frame.device = states.device;
+  frame.contacts = states.contacts;
+  FingerContact& contact = frame.contacts.fingers[0];
+  contact.mode = ContactMode::kNone;
+  contact.body = kNoBody;
+  contact.f_H_W = {0, 2, 0};
+  const FingerView pulled = fingerViews(*run.world, frame)[0];
+  EXPECT_TRUE(pulled.isPushed());
+  EXPECT_EQ(pulled.forceBegin(), contact.p_WP);
+  EXPECT_EQ(pulled.forceEnd(), contact.p_WP + Vec3(0, 2 * kArrowLengthPerNewton, 0));
+  EXPECT_FALSE(withoutMeasured({pulled})[0].isPushed());
+  for (const double none : {0.0, std::nan("")}) {
+    contact.f_H_W.setConstant(none);
+    EXPECT_FALSE(fingerViews(*run.world, frame)[0].isPushed()) << none;
+  }
+}
+
 // The display said "16.00 of 10 N": it compared what was rendered with what the devices can give.
 TEST(Readings, GripForceIsThatOfTheDevicesAndNeverAboveTheirLimits) {
   auto run = view_test::makePinchRun(RunOptions::View::kOffscreen, "");
