@@ -1,5 +1,6 @@
 option(PRESA_TESTS "Build the tests" ON)
 option(PRESA_UNITY "Compile several files of a library or a test at once: a cold build takes a third of the time" ON)
+set(PRESA_BATCH 8 CACHE STRING "Files of a library that are compiled at once, half as many as of a test: more build faster from nothing, fewer after a change")
 set(PRESA_SANITIZE "" CACHE STRING "Value for -fsanitize= (address,undefined or thread); empty: none")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -38,10 +39,13 @@ if(PRESA_SANITIZE)
 endif()
 
 # presa_unity(TARGET ALONE pattern …): compiles its files in batches, but for those that a pattern fits: they have names in their unnamed
-# name space that others of the batch have, too.
+# name space that others of the batch have, too. SIZE: of a batch, PRESA_BATCH by default.
 function(presa_unity target)
-  cmake_parse_arguments(ARG "" "" "ALONE" ${ARGN})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PRESA_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  cmake_parse_arguments(ARG "" "SIZE" "ALONE" ${ARGN})
+  if(NOT ARG_SIZE)
+    set(ARG_SIZE ${PRESA_BATCH})
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PRESA_UNITY} UNITY_BUILD_BATCH_SIZE ${ARG_SIZE})
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     foreach(pattern IN LISTS ARG_ALONE)
@@ -123,16 +127,18 @@ function(presa_add_each folder)
 endfunction()
 
 # presa_test(NAME REAL_TIME LIBRARIES … LAUNCHER … ALONE …): one GoogleTest program from every .cpp of the calling folder, run by the launcher;
-# REAL_TIME: its threads keep periods of a millisecond, so that no other test may run beside it
+# REAL_TIME: its threads keep periods of a millisecond, so that no other test may run beside it; TOGETHER: suites whose tests run in one
+# process, because what they share takes long to make
 function(presa_test name)
-  cmake_parse_arguments(ARG "REAL_TIME" "" "LIBRARIES;LAUNCHER;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME" "" "LIBRARIES;LAUNCHER;ALONE;TOGETHER" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
   endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE presa_framework ${ARG_LIBRARIES} GTest::gtest_main)
-  presa_unity(test_${name} ALONE ${ARG_ALONE})
+  math(EXPR batch "2 * ${PRESA_BATCH}")
+  presa_unity(test_${name} SIZE ${batch} ALONE ${ARG_ALONE})
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   if(PRESA_SANITIZE)
     target_compile_definitions(test_${name} PRIVATE PRESA_SANITIZE) # tests/support/effort.h
@@ -140,6 +146,15 @@ function(presa_test name)
   if(ARG_LAUNCHER)
     set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")
   endif()
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
-    RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
+  set(properties TIMEOUT 300 LABELS ${name} RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
+  foreach(suite IN LISTS ARG_TOGETHER)
+    add_test(NAME ${suite} COMMAND test_${name} --gtest_filter=${suite}.*)
+    set_tests_properties(${suite} PROPERTIES ${properties} COST 100) # begins early
+  endforeach()
+  list(JOIN ARG_TOGETHER ".*:" together)
+  set(filter)
+  if(together)
+    set(filter TEST_FILTER "-${together}.*")
+  endif()
+  gtest_discover_tests(test_${name} ${filter} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

@@ -7,20 +7,20 @@
 namespace presa::percro {
 namespace {
 
-constexpr double kPeriod = 1e-3;
+constexpr double kBenchPeriod = 1e-3;
 constexpr double kMean = 3, kAmplitude = 2;  // [N]
 const TipLoad kBolted{.held = true};
 
 /// Amplitude at the sensor for a commanded sine, in steady state, over full periods.
 double amplitudeAt(const Parameters& parameters, double frequency) {
-  SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
+  SimulatedArm arm(parameters, Vec3::Zero(), kBenchPeriod);
   arm.place({0.75, 0, 0});
   const double turns = std::max(4.0, std::ceil(0.3 * frequency));
-  const auto settle = static_cast<int>(std::lround(0.5 / kPeriod));
-  const auto ticks = static_cast<int>(std::lround(turns / frequency / kPeriod));
+  const auto settle = static_cast<int>(std::lround(0.5 / kBenchPeriod));
+  const auto ticks = static_cast<int>(std::lround(turns / frequency / kBenchPeriod));
   std::complex<double> sum = 0;
   for (int i = 0; i < settle + ticks; ++i) {
-    const double angle = 2 * std::numbers::pi * frequency * i * kPeriod;
+    const double angle = 2 * std::numbers::pi * frequency * i * kBenchPeriod;
     if (i >= settle) sum += arm.tipForce().x() * std::polar(1.0, -angle);
     arm.command({kMean + kAmplitude * std::sin(angle), 0, 0});
     arm.advance(kBolted);
@@ -61,13 +61,13 @@ double linearGain(const Parameters& p, double frequency) {
 Push push(const Parameters& parameters, double length, const Vec3& direction, double max_force) {
   constexpr int kLevels = 40;
   constexpr double kSettle = 1.0;  // [s] per level
-  SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
+  SimulatedArm arm(parameters, Vec3::Zero(), kBenchPeriod);
   arm.place({length, 0, 0});
   const Vec3 start = arm.reportedPosition();
   Push push;
   for (int level = 0; level <= kLevels; ++level) {
     const double part = 1 - std::abs(2.0 * level / kLevels - 1);
-    for (int i = 0; i < kSettle / kPeriod; ++i) {
+    for (int i = 0; i < kSettle / kBenchPeriod; ++i) {
       arm.command(part * max_force * direction);
       arm.advance(kBolted);
     }
@@ -89,18 +89,18 @@ Push push(const Parameters& parameters, double length, const Vec3& direction, do
 double wallShake(const Parameters& parameters, double length, const Vec3& direction, double stiffness,
                  double hand_damping) {
   constexpr double kLean = 3, kSettle = 3, kWatch = 1;  // [N], [s], [s]
-  SimulatedArm arm(parameters, Vec3::Zero(), kPeriod);
+  SimulatedArm arm(parameters, Vec3::Zero(), kBenchPeriod);
   arm.place({length, 0, 0});
   const Vec3 wall = arm.reportedPosition();
   const TipLoad hand{
       .mass = 0.1, .stiffness = 300, .damping = hand_damping, .target = wall, .force = kLean * direction};
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int i = 0; i < (kSettle + kWatch) / kPeriod; ++i) {
+  for (int i = 0; i < (kSettle + kWatch) / kBenchPeriod; ++i) {
     const double depth = std::max(0.0, (arm.reportedPosition() - wall).dot(direction));
     arm.command(-std::min(stiffness * depth, printed::kPeakForce) * direction);
     arm.advance(hand);
     const double at = arm.state().x.dot(direction);
-    if (i * kPeriod >= kSettle) low = std::min(low, at), high = std::max(high, at);
+    if (i * kBenchPeriod >= kSettle) low = std::min(low, at), high = std::max(high, at);
   }
   return high - low;
 }

@@ -11,8 +11,8 @@
 namespace presa::faults {
 namespace {
 
-constexpr int kNetworkRuns = 100;  // each opens a network
-constexpr double kHoldLimit = 8;   // of the scene [N]
+constexpr int kNetworkRuns = 100;   // each opens a network
+constexpr double kViewedLimit = 8;  // of the scene [N]
 
 /// Forces and energies of a complete hold, tick by tick.
 struct Trace {
@@ -25,7 +25,7 @@ struct Trace {
 Trace traceOf(const Hold& hold, Outcome& outcome, const std::function<void(double)>& meanwhile = {}) {
   Trace trace;
   runHold(hold, [&](double time, const Traffic& traffic) {
-    requireBounded(traffic, kHoldLimit, outcome);
+    requireBounded(traffic, kViewedLimit, outcome);
     trace.force.push_back(traffic.force);
     trace.energy.push_back(traffic.energy);
     trace.step = traffic.step;

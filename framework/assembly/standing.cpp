@@ -11,7 +11,7 @@ namespace {
 
 using Status = GoalState::Status;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kStandingDegree = std::numbers::pi / 180;
 constexpr double kSlow = 0.02;  // [m/s]
 constexpr double kSlack = 2;    // multiple of the tolerances [-]: a viewer's picture is a period old and interpolated
 
@@ -27,7 +27,7 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
       const BodyMotion& motion = objects.bodies[body];
       const PoseDifference difference = differenceTo(assembly.goals[g], motion.X_WB_end);
       if (taken[body] != 0 || motion.v_WB.norm() > kSlow || difference.distance > kSlack * assembly.tolerance ||
-          difference.angle > kSlack * assembly.tolerance_angle_deg * kDegree)
+          difference.angle > kSlack * assembly.tolerance_angle_deg * kStandingDegree)
         continue;
       taken[body] = 1;
       state.goals[g] = {Status::kFilled, static_cast<std::int32_t>(body), kNoGoal};
@@ -42,7 +42,7 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
     for (const std::size_t body : assembly.goals[g].bodies) {
       const PoseDifference difference = differenceTo(assembly.goals[g], objects.bodies[body].X_WB_end);
       if (taken[body] != 0 || difference.distance > assembly.snap_distance ||
-          difference.angle > assembly.snap_angle_deg * kDegree)
+          difference.angle > assembly.snap_angle_deg * kStandingDegree)
         continue;
       const bool blocked = waits != assembly.goals[g].after.end();
       state.goals[g] = {blocked ? Status::kBlocked : Status::kDrawing, static_cast<std::int32_t>(body),

@@ -11,7 +11,7 @@
 namespace presa {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kWriteRounding = 1e-9;
 constexpr double kGone = 0.02;  // a force may take this long to zero after the device is lost [s]
 
 class TransportWatch final : public WrappedDevice {
@@ -53,9 +53,9 @@ class TransportWatch final : public WrappedDevice {
   void judge(const Part& part, const Vec3& f, const Vec3& before, const Tick& tick) const noexcept {
     const double force = f.norm(), step = (f - before).norm();
     if (!f.allFinite()) fail(part, "is not finite", force, 0, tick);
-    if (force > part.max * (1 + kRounding)) fail(part, "is above the limit", force, part.max, tick);
+    if (force > part.max * (1 + kWriteRounding)) fail(part, "is above the limit", force, part.max, tick);
     const double slew = part.rate * (tick.resumed ? Executor::kGap : tick.period);
-    if (step > slew * (1 + kRounding) + 1e-12) fail(part, "changed faster than the slew limit", step, slew, tick);
+    if (step > slew * (1 + kWriteRounding) + 1e-12) fail(part, "changed faster than the slew limit", step, slew, tick);
     if (!usable_ && force > 0) fail(part, "came before any usable sample", force, 0, tick);
     if (tick.resumed && force > 0) fail(part, "came right after a gap", force, 0, tick);
     if (lost_for_ > kGone + tick.period && force > 0) fail(part, "was sent after the device was lost", force, 0, tick);

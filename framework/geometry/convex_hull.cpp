@@ -11,7 +11,7 @@ namespace {
 constexpr double kOutside = 1e-7;   // a point nearer than this to the hull adds nothing to it
 constexpr double kVisible = 1e-11;  // a face is seen from a point this far in front of it
 constexpr double kBulge = 1e-5;
-constexpr double kFlat = 1e-9;  // volume of the first tetrahedron
+constexpr double kFlatHull = 1e-9;  // volume of the first tetrahedron
 
 struct HullFace {
   std::array<std::int32_t, 3> corners;
@@ -81,7 +81,7 @@ bool HullMaker::begin() {
   const Vec3 normal = along.cross(at(c) - at(a));
   const std::int32_t d = farthest([&](const Vec3& p) { return std::abs(normal.dot(p - at(a))); });
   const double volume = normal.dot(at(d) - at(a));
-  if (!(std::abs(volume) > kFlat * size_ * size_ * size_)) return false;
+  if (!(std::abs(volume) > kFlatHull * size_ * size_ * size_)) return false;
   std::int32_t first = b;
   if (volume > 0) std::swap(first, c);
   const std::array<std::array<std::int32_t, 3>, 4> faces{{{a, first, c}, {a, d, first}, {first, d, c}, {c, d, a}}};

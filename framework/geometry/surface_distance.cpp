@@ -30,9 +30,9 @@ double reachOf(const Corners& corners, const Vec3& middle) {
 /// The two bounds, and how triangles change them. `boundOf(corners, low)`: no point of the triangle is farther; raises
 /// `low` to the distance of a point of it.
 template <class BoundOf>
-class Search {
+class DistanceSearch {
  public:
-  Search(const BoundOf& bound_of, const DistanceWanted& wanted, const GoOn& go_on)
+  DistanceSearch(const BoundOf& bound_of, const DistanceWanted& wanted, const GoOn& go_on)
       : bound_of_(bound_of), wanted_(wanted), go_on_(go_on) {}
 
   void raise(double low) { low_ = std::max(low_, low); }
@@ -92,7 +92,7 @@ SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, const Di
     for (const Vec3& corner : corners) convex = std::max(convex, (corner - closestOnTriangle(corner, prepared)).norm());
     return std::min(here + reachOf(corners, middle), convex);
   };
-  Search search(bound_of, wanted, go_on);
+  DistanceSearch search(bound_of, wanted, go_on);
   for (const Vec3& vertex : from.vertices)  // most of what the bounds are compared with
     search.raise(std::sqrt(tree.squaredDistance(vertex, 1e300)));
   return search.over(from);
@@ -107,7 +107,7 @@ SurfaceDistance largestDistance(const TriMesh& from, const std::function<double(
     return here + reachOf(corners, middle);
   };
   const DistanceWanted wanted{.tolerance = tolerance};
-  Search search(bound_of, wanted, go_on);
+  DistanceSearch search(bound_of, wanted, go_on);
   for (const Vec3& vertex : from.vertices) search.raise(distance(vertex));
   return search.over(from);
 }

@@ -8,7 +8,7 @@
 namespace presa {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
 /// Hash grid over the vertices kept so far. Cells are as wide as the tolerance, so all candidates lie in 27 cells. Hash
 /// collisions cost only time, because the distance decides.
@@ -19,7 +19,7 @@ class VertexGrid {
 
   /// First kept vertex within `tolerance` of `point`, or -1.
   std::int32_t find(const Vec3& point, const std::vector<Vec3>& kept, double tolerance) const {
-    const Cell center = cellOf(point);
+    const GridCell center = cellOf(point);
     std::int32_t first = kEnd;
     for (std::int64_t x = -1; x <= 1; ++x) {
       for (std::int64_t y = -1; y <= 1; ++y) {
@@ -45,8 +45,8 @@ class VertexGrid {
  private:
   static constexpr std::int32_t kEnd = -1;
 
-  Cell cellOf(const Vec3& point) const {
-    Cell cell{};
+  GridCell cellOf(const Vec3& point) const {
+    GridCell cell{};
     for (int i = 0; i < 3; ++i) {
       // not finite, or too large for an integer: any cell will do, because such a vertex has no neighbours
       const double index = std::floor((point[i] - origin_[i]) / cell_size_);
@@ -54,7 +54,7 @@ class VertexGrid {
     }
     return cell;
   }
-  std::size_t hash(const Cell& cell) const {
+  std::size_t hash(const GridCell& cell) const {
     std::uint64_t h = 0;
     for (const std::int64_t index : cell) {
       h = (h ^ static_cast<std::uint64_t>(index)) * 0x9e3779b97f4a7c15u;

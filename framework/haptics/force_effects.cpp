@@ -9,7 +9,7 @@ namespace presa {
 namespace {
 
 // A sum of several terms may exceed the bound by rounding.
-constexpr double kRounding = 1 + 1e-9;
+constexpr double kForceRounding = 1 + 1e-9;
 
 std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
   const auto& table = pluginTable<ForceEffectPlugin>(element.plugin, "presaForceEffectPlugin");
@@ -53,8 +53,8 @@ void ForceEffects::apply(std::size_t tool, const Tick& tick, const FingerInput& 
     const EffectForce force = effect.effect->apply(
         tool, {tick.time, tick.period, input.p_WH, input.v_WH, radius, X_WB, input.oriented, input.q_WT, input.w_WT});
     // written so that NaN fails
-    if (!(force.f_T_W.norm() <= effect.max_force * kRounding && force.p_WF.allFinite() &&
-          force.couple_T_W.norm() <= effect.max_torque * kRounding)) {
+    if (!(force.f_T_W.norm() <= effect.max_force * kForceRounding && force.p_WF.allFinite() &&
+          force.couple_T_W.norm() <= effect.max_torque * kForceRounding)) {
       int none = -1;
       broken_.compare_exchange_strong(none, static_cast<int>(i), std::memory_order_acq_rel);
       break;

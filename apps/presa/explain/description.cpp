@@ -72,27 +72,27 @@ void describeGrasps(const World& world, json& out) {
 }
 
 template <class... Values>
-std::string print(const char* format, Values... values) {
+std::string formatted(const char* format, Values... values) {
   std::array<char, 160> text;
   std::snprintf(text.data(), text.size(), format, values...);
   return text.data();
 }
 
 std::string byButton(const Frame::Button& button) {
-  return button.number ? print("button %d or the window's key", *button.number) : "the window's key";
+  return button.number ? formatted("button %d or the window's key", *button.number) : "the window's key";
 }
 
 /// What its user may do with a frame: "in user; clutch by button 1 or the window's key; scale 0.5 to 2, …".
 std::string describeFrame(const Frame& frame) {
   std::string text = "in " + frame.parent;
   if (frame.moves != Frame::Moves::kNot)
-    text +=
-        print("; %s at up to %.4g m/s and turns at up to %.4g deg/s, by the window's keys",
-              frame.moves == Frame::Moves::kWalk ? "walks" : "flies", frame.speed, frame.turn * 180 / std::numbers::pi);
-  if (!frame.drift.isZero()) text += print("; moves by itself at %.4g m/s", frame.drift.norm());
+    text += formatted("; %s at up to %.4g m/s and turns at up to %.4g deg/s, by the window's keys",
+                      frame.moves == Frame::Moves::kWalk ? "walks" : "flies", frame.speed,
+                      frame.turn * 180 / std::numbers::pi);
+  if (!frame.drift.isZero()) text += formatted("; moves by itself at %.4g m/s", frame.drift.norm());
   if (frame.clutch) text += "; clutch by " + byButton(*frame.clutch);
   if (frame.zoom)
-    text += print("; scale %.4g to %.4g, finer by ", frame.zoom->min, frame.zoom->max) + byButton(frame.zoom->in) +
+    text += formatted("; scale %.4g to %.4g, finer by ", frame.zoom->min, frame.zoom->max) + byButton(frame.zoom->in) +
             ", coarser by " + byButton(frame.zoom->out);
   return text + "; rests while a finger in it feels a force";
 }
@@ -100,11 +100,11 @@ std::string describeFrame(const Frame& frame) {
 /// What a view draws of a mesh file beside its triangles.
 std::string describeModel(const Model& model) {
   std::string text =
-      std::filesystem::path(model.file).filename().string() + print(", %zu triangles, ", model.triangles());
+      std::filesystem::path(model.file).filename().string() + formatted(", %zu triangles, ", model.triangles());
   if (model.textures.empty()) text += "colours without textures";
   for (std::size_t n = 0; n < model.textures.size(); ++n) {
     const ModelTexture& texture = model.textures[n];
-    text += (n == 0 ? "textures " : ", ") + texture.name + print(" of %d x %d", texture.width, texture.height);
+    text += (n == 0 ? "textures " : ", ") + texture.name + formatted(" of %d x %d", texture.width, texture.height);
   }
   return text + "; a view makes coarser levels of detail, a quarter of the triangles each";
 }

@@ -17,7 +17,7 @@ namespace {
 
 using terminal::format;
 
-constexpr double kTraceRate = 250;  // as `presa run`
+constexpr double kGraspTraceRate = 250;  // as `presa run`
 
 /// End of the scripted hold of the first device [s]; 0: it has none.
 double holdEnd(const Loaded& loaded) {
@@ -80,21 +80,21 @@ std::string heading(const RunResult& result, const GraspStrength& strength) {
   return names + format(", at %.3f s", strength.time);
 }
 
-void print(const std::string& text) { std::fputs(printableLines(text).c_str(), stdout); }
+void printLines(const std::string& text) { std::fputs(printableLines(text).c_str(), stdout); }
 
 int printGrasp(const RunResult& result, bool as_json) {
   const std::optional<GraspFigures> figures = graspFigures(result);
   if (as_json) {
     const auto summary = nlohmann::ordered_json::parse(summaryJson(result));
-    print((summary.contains("grasp") ? summary["grasp"] : nlohmann::ordered_json()).dump(2) + "\n");
+    printLines((summary.contains("grasp") ? summary["grasp"] : nlohmann::ordered_json()).dump(2) + "\n");
   } else if (!figures) {
-    print("Scene " + result.world->scene.name + ": no grasp, nothing was held by two fingers during the hold.\n");
+    printLines("Scene " + result.world->scene.name + ": no grasp, nothing was held by two fingers during the hold.\n");
   } else if (const auto strength = graspStrength(result, *figures)) {
-    print("Scene " + result.world->scene.name + ": " + result.objects[figures->object].name + " held by " +
-          graspText(result, *strength));
+    printLines("Scene " + result.world->scene.name + ": " + result.objects[figures->object].name + " held by " +
+               graspText(result, *strength));
   } else {
-    print("Scene " + result.world->scene.name + ": no friction cone to judge the grasp of " +
-          result.objects[figures->object].name + " by.\n");
+    printLines("Scene " + result.world->scene.name + ": no friction cone to judge the grasp of " +
+               result.objects[figures->object].name + " by.\n");
   }
   for (const RunResult::Fault& fault : result.faults)
     std::fputs(printableLines(format("%.3f s: ", fault.time) + fault.text + "\n").c_str(), stderr);
@@ -135,7 +135,7 @@ int explainGrasp(Loaded loaded, bool as_json) {
     return kExitBadInput;
   }
   loaded.options.duration = end;
-  TerminalRun run(std::move(loaded), {.trace_rate = kTraceRate, .quiet = true, .command = ""});
+  TerminalRun run(std::move(loaded), {.trace_rate = kGraspTraceRate, .quiet = true, .command = ""});
   run.execute();
   return printGrasp(run.result(), as_json);
 }

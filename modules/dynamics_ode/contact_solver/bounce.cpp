@@ -9,7 +9,7 @@
 namespace presa::ode {
 namespace {
 
-using Body = ContactProblem::Body;
+using ContactBody = ContactProblem::Body;
 using Contact = ContactProblem::Contact;
 
 constexpr int kMaxSweeps = 100;
@@ -22,17 +22,17 @@ Vec3 relative(const Contact& c, Of of) {
   return c.A == ContactProblem::kFixed ? of(c.B) : Vec3(of(c.B) - of(c.A));
 }
 
-Mat3 inverseInertia(const Body& body) {
+Mat3 inverseInertia(const ContactBody& body) {
   const Mat3 R = body.q_WB.toRotationMatrix();
   return R * body.inverse_inertia_B * R.transpose();
 }
 
-void push(Body& body, const Vec3& r_W, const Vec3& impulse) {
+void push(ContactBody& body, const Vec3& r_W, const Vec3& impulse) {
   body.v_WCm += impulse / body.mass;
   body.w_WB += inverseInertia(body) * r_W.cross(impulse);
 }
 
-double inverseMass(const Body& body, const Vec3& r_W, const Vec3& direction) {
+double inverseMass(const ContactBody& body, const Vec3& r_W, const Vec3& direction) {
   const Vec3 turn = r_W.cross(direction);
   return 1 / body.mass + turn.dot(inverseInertia(body) * turn);
 }
@@ -68,7 +68,7 @@ void Bounce::before(const ContactProblem& problem, double h) {
 // Of B against A at the contact.
 Vec3 Bounce::velocityAt(const ContactProblem& problem, const Contact& c) const {
   return relative(c, [&](std::int32_t b) {
-    const Body& body = problem.bodies[index(b)];
+    const ContactBody& body = problem.bodies[index(b)];
     return Vec3(body.v_WCm + body.w_WB.cross(armOf(b, c)));
   });
 }
@@ -76,7 +76,7 @@ Vec3 Bounce::velocityAt(const ContactProblem& problem, const Contact& c) const {
 double Bounce::massAlong(const ContactProblem& problem, const Contact& c, const Vec3& direction) const {
   const auto inverse = [&](std::int32_t b) {
     if (b == ContactProblem::kFixed) return 0.0;
-    const Body& body = problem.bodies[index(b)];
+    const ContactBody& body = problem.bodies[index(b)];
     return inverseMass(body, armOf(b, c), direction);
   };
   return 1 / (inverse(c.A) + inverse(c.B));
@@ -85,7 +85,7 @@ double Bounce::massAlong(const ContactProblem& problem, const Contact& c, const 
 void Bounce::give(ContactProblem& problem, const Contact& c, const Vec3& impulse) const {
   for (const std::int32_t b : {c.A, c.B}) {
     if (b == ContactProblem::kFixed) continue;
-    Body& body = problem.bodies[index(b)];
+    ContactBody& body = problem.bodies[index(b)];
     push(body, armOf(b, c), b == c.B ? impulse : Vec3(-impulse));
   }
 }
@@ -119,11 +119,11 @@ double Bounce::sweep(ContactProblem& problem) {
 void Bounce::boundEnergy(ContactProblem& problem) {
   double allowed = 0, solved = 0, slope = 0, curvature = 0;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    const Body &begin = begin_[i], &from = solved_[i], &to = problem.bodies[i];
-    const auto spin = [](const Body& a, const Body& b) {
+    const ContactBody &begin = begin_[i], &from = solved_[i], &to = problem.bodies[i];
+    const auto spin = [](const ContactBody& a, const ContactBody& b) {
       return (a.q_WB.conjugate() * a.w_WB).dot(a.inertia_B * (b.q_WB.conjugate() * b.w_WB));
     };
-    Body change = to;
+    ContactBody change = to;
     change.v_WCm -= from.v_WCm;
     change.w_WB -= from.w_WB;
     allowed +=
@@ -137,7 +137,7 @@ void Bounce::boundEnergy(ContactProblem& problem) {
   const double room = std::max(0.0, allowed - solved);
   const double part = std::clamp((std::sqrt(slope * slope + 2 * curvature * room) - slope) / curvature, 0.0, 1.0);
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    Body& body = problem.bodies[i];
+    ContactBody& body = problem.bodies[i];
     body.v_WCm = solved_[i].v_WCm + part * (body.v_WCm - solved_[i].v_WCm);
     body.w_WB = solved_[i].w_WB + part * (body.w_WB - solved_[i].w_WB);
   }
@@ -148,7 +148,7 @@ void Bounce::fallExactly(ContactProblem& problem) const {
   if (!problem.joints.empty() || !problem.fingers.empty() || !problem.motors.empty()) return;
   if (std::ranges::any_of(problem.contacts, pushes)) return;
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    Body& body = problem.bodies[i];
+    ContactBody& body = problem.bodies[i];
     body.p_WCm = begin_[i].p_WCm + h_ / 2 * (begin_[i].v_WCm + body.v_WCm);
   }
 }
@@ -158,7 +158,7 @@ void Bounce::after(ContactProblem& problem) {
     const Contact& c = problem.contacts[impact.contact];
     double near = impact.near;
     const Vec3 moved = relative(c, [&](std::int32_t b) {
-      const Body& body = problem.bodies[index(b)];
+      const ContactBody& body = problem.bodies[index(b)];
       const double turn = h_ * body.w_WB.norm();
       near += armOf(b, c).norm() * turn * turn / 2;  // what the lever arm hides as it turns
       return Vec3(body.p_WCm - begin_[index(b)].p_WCm + h_ * body.w_WB.cross(armOf(b, c)));

@@ -13,11 +13,11 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kPrefer = 1e-4;    // in relation to the smaller hull
-constexpr double kKeep = 5e-3;      // the same, of the axis of the step before
-constexpr double kOblique = 1e-4;   // 1 - cosine between a face and the way to a round body beside it
-constexpr double kParallel = 1e-6;  // squared sine of edges that span no plane
-constexpr double kThrough = 1e-7;   // distance from a hull's centre of an edge through it, in relation to the hull
+constexpr double kPrefer = 1e-4;         // in relation to the smaller hull
+constexpr double kKeep = 5e-3;           // the same, of the axis of the step before
+constexpr double kOblique = 1e-4;        // 1 - cosine between a face and the way to a round body beside it
+constexpr double kParallelEdges = 1e-6;  // squared sine of edges that span no plane
+constexpr double kThrough = 1e-7;        // distance from a hull's centre of an edge through it, in relation to the hull
 constexpr std::size_t kMaxPolygon = 64;
 
 double sizeOf(const Hull& hull) { return (hull.vertices.front() - hull.centre).norm() + hull.radius; }
@@ -80,7 +80,7 @@ namespace {
 EdgeAxis axisOf(const Hull& A, const Hull& B, const Hull::Edge& a, const Hull::Edge& b) {
   Vec3 normal = A.directions[index(a.direction)].cross(B.directions[index(b.direction)]);
   const double sine = normal.squaredNorm();
-  if (sine < kParallel) return {};
+  if (sine < kParallelEdges) return {};
   normal /= std::sqrt(sine);
   const Vec3& p_a = A.vertices[index(a.from)];
   double outward = normal.dot(p_a - A.centre);
@@ -206,7 +206,7 @@ void collideRound(const Hull& A, const Hull& B, double margin, Manifold& out) {
   const Vec3 nhat = apart.norm() > 1e-12 ? Vec3(apart.normalized()) : Vec3::UnitZ();
   const Vec3 a = A.vertices.back() - A.vertices.front(), b = B.vertices.back() - B.vertices.front();
   const double lengths = a.squaredNorm() * b.squaredNorm();
-  if (!(lengths > 0) || a.cross(b).squaredNorm() > kParallel * lengths)
+  if (!(lengths > 0) || a.cross(b).squaredNorm() > kParallelEdges * lengths)
     return setPoint(on_a, on_b, A.radius, B.radius, margin, nhat, out);
   // lying along each other: the ends of the stretch that they share
   const double from_b = (B.vertices.front() - A.vertices.front()).dot(a), to_b = from_b + b.dot(a);

@@ -15,14 +15,14 @@
 namespace presa::experiment {
 namespace {
 
-const std::string kProgram = std::string(PRESA_BINARY_DIR) + "/bin/presa";
-const std::string kLift = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/lift.xml";
+const std::string kPresa = std::string(PRESA_BINARY_DIR) + "/bin/presa";
+const std::string kLiftFile = std::string(PRESA_SOURCE_DIR) + "/tests/apps/experiment/fixtures/lift.xml";
 
 TEST(OperatorWindow, TakesANoteAndStops) {
   const ScratchFolder scratch;
   const std::string data = scratch.file("data");
   std::ofstream(scratch.file("operator.sh"))
-      << kProgram << " experiment run " << kLift << " --subject S01 --operator window --data " << data << " &\n"
+      << kPresa << " experiment run " << kLiftFile << " --subject S01 --operator window --data " << data << " &\n"
       << "timeout 60 xdotool search --sync --onlyvisible --name operator\n"
       // keys sent before the window is mapped are lost: repeat until the note is in the log
       << "for i in $(seq 40); do xdotool key Escape n; xdotool type --delay 20 'hand was cold'; xdotool key Return\n"
@@ -43,7 +43,7 @@ TEST(OperatorWindow, TakesANoteAndStops) {
 
 TEST(OperatorWindow, WithoutADisplay) {
   const ScratchFolder scratch;
-  const int status = std::system(("env -u DISPLAY " + kProgram + " experiment run " + kLift +
+  const int status = std::system(("env -u DISPLAY " + kPresa + " experiment run " + kLiftFile +
                                   " --subject S01 --operator window --data " + scratch.file("data") + " > " +
                                   scratch.file("log") + " 2>&1")
                                      .c_str());

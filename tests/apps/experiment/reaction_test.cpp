@@ -12,7 +12,7 @@
 namespace presa::experiment {
 namespace {
 
-constexpr double kPeriod = 0.001;
+constexpr double kTickPeriod = 0.001;
 constexpr std::size_t kWait = 0, kReact = 1;
 
 class ReactionTest : public testing::Test {
@@ -22,9 +22,10 @@ class ReactionTest : public testing::Test {
   }
   /// Onset found by the clock after all samples of both phases.
   static double onsetOf(const Reaction& rule, const std::vector<double>& wait, const std::vector<double>& react) {
-    ReactionClock clock(rule, kPeriod);
+    ReactionClock clock(rule, kTickPeriod);
     for (const double x : wait) clock.add(kWait, {&x, 1}, 0);
-    for (std::size_t n = 0; n < react.size(); ++n) clock.add(kReact, {&react[n], 1}, static_cast<double>(n) * kPeriod);
+    for (std::size_t n = 0; n < react.size(); ++n)
+      clock.add(kReact, {&react[n], 1}, static_cast<double>(n) * kTickPeriod);
     return clock.onset();
   }
   Diagnostics diagnostics;
@@ -47,14 +48,14 @@ double searchedBackwards(const std::vector<double>& react, const Lines& lines) {
   if (response == react.end()) return std::numeric_limits<double>::quiet_NaN();
   auto onset = response;
   while (onset != react.begin() && *(onset - 1) > lines.left) --onset;
-  return static_cast<double>(onset - react.begin()) * kPeriod;
+  return static_cast<double>(onset - react.begin()) * kTickPeriod;
 }
 
 /// A grip of 2 N with white noise, which rises from sample 150 of the reaction phase on.
 struct Rise {
   static constexpr double kSd = 0.02, kSlope = 4;  // [N], [N/s]: a rise of a fifth of the noise sd per sample
   static constexpr int kDelay = 150;
-  static double height(int n) { return std::max(0, n - kDelay) * kPeriod * kSlope; }
+  static double height(int n) { return std::max(0, n - kDelay) * kTickPeriod * kSlope; }
   explicit Rise(std::uint64_t seed) {
     RandomStream noise(seed, "noise");
     for (int n = 0; n < 700; ++n) wait.push_back(2 + kSd * noise.normal());
@@ -90,9 +91,9 @@ TEST_F(ReactionTest, OnAverageFindsTheBeginningOfARampInNoise) {
   double mean = 0, squares = 0;
   for (int run = 1; run <= kRuns; ++run) {
     const Rise rise(static_cast<std::uint64_t>(run));
-    const double change = onsetOf(what, rise.wait, rise.react) / kPeriod - mean;
+    const double change = onsetOf(what, rise.wait, rise.react) / kTickPeriod - mean;
     mean += change / run;
-    squares += change * (onsetOf(what, rise.wait, rise.react) / kPeriod - mean);
+    squares += change * (onsetOf(what, rise.wait, rise.react) / kTickPeriod - mean);
   }
   const double error = std::sqrt(squares / (kRuns - 1) / kRuns);
   EXPECT_LT(error, 0.15);  // [samples]: otherwise the comparison would be weak
@@ -133,7 +134,7 @@ TEST_F(ReactionTest, LooksAtTheLastOfTheBaselineAndNotBeforeTheEvent) {
 TEST_F(ReactionTest, TakesNoMemory) {
   const Reaction what = rule(0.2, 5);
   const Rise rise(1);
-  ReactionClock clock(what, kPeriod);
+  ReactionClock clock(what, kTickPeriod);
   const RealTimeGuard guard;
   for (const double& x : rise.wait) clock.add(kWait, {&x, 1}, 0);
   for (const double& x : rise.react) clock.add(kReact, {&x, 1}, 0.1);

@@ -11,7 +11,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kRadius = 0.01;
+constexpr double kCylinderRadius = 0.01;
 
 struct Random {
   std::mt19937 generator{5};
@@ -39,19 +39,19 @@ TEST(CylinderContact, TouchesAPlaneWithItsTrueRim) {
   const Hull table = ground();
   for (int n = 0; n < 3000; ++n) {
     const double length = n % 2 == 0 ? 0.002 : 0.05;
-    const Hull cylinder = cylinderHull(kRadius, length);
+    const Hull cylinder = cylinderHull(kCylinderRadius, length);
     const double gap = 1e-3 * random.normal(random.generator) * (n % 2 == 0 ? 0.1 : 1);
     Quat q = random.turn();
     if (n % 5 == 0) q = Quat(Eigen::AngleAxisd(1e-4 * (n % 7), random.direction()));  // nearly upright
     if (n % 5 == 1) q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(1, 1, 1e-4 * (n % 7)).normalized());
-    const double reach = support(kRadius, length, q.conjugate() * Vec3::UnitZ());
+    const double reach = support(kCylinderRadius, length, q.conjugate() * Vec3::UnitZ());
     const Pose X{{0.01, 0.02, reach + gap}, q};
     CylinderTurn turn;
     const Vec3 way = shortestWay(table, stand_in.core(cylinder, X));
     EXPECT_LT((way - Vec3::UnitZ()).norm(), 1e-12);
     const Manifold manifold = contactOf(table, stand_in.facing(cylinder, X, -way, turn), 0.004);
     ASSERT_GT(manifold.count, 0) << n;
-    ASSERT_NEAR(deepest(manifold), gap, 1e-4 * kRadius) << n;
+    ASSERT_NEAR(deepest(manifold), gap, 1e-4 * kCylinderRadius) << n;
     ASSERT_LT((manifold.nhat_AB_W - Vec3::UnitZ()).norm(), 1e-9) << n;
   }
 }
@@ -59,10 +59,10 @@ TEST(CylinderContact, TouchesAPlaneWithItsTrueRim) {
 // A cylinder that comes to lie on its side is an axis where it was a prism: what is remembered of the prism's edges and
 // faces is of no use then.
 TEST(CylinderContact, ForgetsWhatItsStandInDoesNotHave) {
-  const Hull table = ground(), cylinder = cylinderHull(kRadius, 0.05);
+  const Hull table = ground(), cylinder = cylinderHull(kCylinderRadius, 0.05);
   CylinderStandIn stand_in;
   CylinderTurn turn;
-  const Pose X{{0, 0, kRadius}, Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()))};
+  const Pose X{{0, 0, kCylinderRadius}, Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX()))};
   const Hull& side = stand_in.facing(cylinder, X, -Vec3::UnitZ(), turn);
   ASSERT_TRUE(side.faces.empty());
   ManifoldMaker maker;
@@ -78,14 +78,14 @@ TEST(CylinderContact, ForgetsWhatItsStandInDoesNotHave) {
 TEST(CylinderContact, SidesTouchAsFarApartAsTheirAxesLessTheRadii) {
   Random random;
   std::array<CylinderStandIn, 2> stand_ins;
-  const Hull cylinder = cylinderHull(kRadius, 0.1);
+  const Hull cylinder = cylinderHull(kCylinderRadius, 0.1);
   for (int n = 0; n < 2000; ++n) {
     const Vec3 across = random.direction(), a = across.unitOrthogonal();
     const double angle = n % 4 == 0 ? 0 : 0.01 + std::abs(random.normal(random.generator));
     const Vec3 b = Eigen::AngleAxisd(angle, across) * a;
     const double gap = 1e-4 * random.normal(random.generator);
     const Pose X_A{Vec3::Zero(), Quat::FromTwoVectors(Vec3::UnitZ(), a)};
-    const Pose X_B{(2 * kRadius + gap) * across + 0.01 * a, Quat::FromTwoVectors(Vec3::UnitZ(), b)};
+    const Pose X_B{(2 * kCylinderRadius + gap) * across + 0.01 * a, Quat::FromTwoVectors(Vec3::UnitZ(), b)};
     std::array<CylinderTurn, 2> turns;
     const Vec3 way = shortestWay(stand_ins[0].core(cylinder, X_A), stand_ins[1].core(cylinder, X_B));
     const Manifold manifold = contactOf(stand_ins[0].facing(cylinder, X_A, way, turns[0]),
@@ -99,7 +99,7 @@ TEST(CylinderContact, SidesTouchAsFarApartAsTheirAxesLessTheRadii) {
 TEST(CylinderContact, FlatEndLiesOnEightPoints) {
   Random random;
   std::array<CylinderStandIn, 2> stand_ins;
-  const Hull cylinder = cylinderHull(kRadius, 0.004);
+  const Hull cylinder = cylinderHull(kCylinderRadius, 0.004);
   for (const double tilt : {0.0, 1e-4}) {
     const Pose X_A{{0, 0, 0.002}, Quat::Identity()};
     const Pose X_B{{0.001, 0, 0.006}, Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY()))};

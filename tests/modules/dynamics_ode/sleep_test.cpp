@@ -4,7 +4,7 @@
 namespace presa::ode {
 namespace {
 
-WorldMaker pile(int n) {
+WorldMaker sleepers(int n) {
   WorldMaker maker;
   maker.table();
   for (int i = 0; i < n * n * n; ++i) {
@@ -21,7 +21,7 @@ int asleep(const Runner& runner) {
 }
 
 TEST(Sleep, PileFallsAsleepAndStaysWhereItIs) {
-  Runner runner(pile(3).world());
+  Runner runner(sleepers(3).world());
   runner.run(5);
   ASSERT_EQ(asleep(runner), 27);
   const ObjectState before = runner.state;
@@ -57,14 +57,14 @@ TEST(Sleep, AJumbleFallsAsleepThoughItCreeps) {
 TEST(Sleep, NothingSleepsWhereTheSceneForbidsIt) {
   OdeOptions options;
   options.method.sleeping = false;
-  Runner runner(pile(1).world(), options);
+  Runner runner(sleepers(1).world(), options);
   runner.run(5);
   EXPECT_EQ(asleep(runner), 0);
 }
 
 // A finger wakes the whole island that it touches and pushes it in the same step; other islands stay asleep.
 TEST(Sleep, FingerWakesTheIslandInOneStep) {
-  Runner runner(pile(2).box(kCube, 0.1, {{0.5, 0.5, 0.025}, Quat::Identity()}).world());
+  Runner runner(sleepers(2).box(kCube, 0.1, {{0.5, 0.5, 0.025}, Quat::Identity()}).world());
   runner.run(5);
   ASSERT_EQ(asleep(runner), 9);
   std::vector<ReferenceFinger> fingers{{8, {0.025, 0, 0}, Vec3::UnitX()}};

@@ -11,9 +11,9 @@
 namespace presa::view_test {
 namespace {
 
-constexpr double kHeight = 0.1, kEyeAbove = 0.8;  // of the frame's origin; of the camera above it [m]
-constexpr double kYaw = 0.5;                      // of the frame about z [rad]
-const Vec3 kDesk(0.15, 0.08, kHeight);            // its origin, beside all bodies
+constexpr double kFrameHeight = 0.1, kEyeAbove = 0.8;  // of the frame's origin; of the camera above it [m]
+constexpr double kYaw = 0.5;                           // of the frame about z [rad]
+const Vec3 kDesk(0.15, 0.08, kFrameHeight);            // its origin, beside all bodies
 
 /// A rig with the frame 'desk', whose clutch is part of it, seen from above the desk.
 PinchRun deskRun(const std::string& file, const std::vector<std::string>& show, PictureOptions::Hud hud) {
