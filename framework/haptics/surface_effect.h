@@ -13,6 +13,7 @@ namespace presa {
 /// One tool that touches the body of an effect, in one haptic tick. Vectors in the working frame A.
 struct SurfaceInput {
   std::size_t tool;  ///< index of the scene's device role
+  double time;       ///< of the tick [s]
   double period;     ///< [s]
   double radius;     ///< of the tool [m]
   const Vec3& g;     ///< where the device is [m]

@@ -44,7 +44,7 @@ struct FingerTick {
   FingerContact& out;
   ContactExchange& all;
   const Touchables& touchables;
-  double period = 0;  ///< [s]
+  double time = 0, period = 0;  ///< [s]
   double r = 0;
   double approach = 0;  ///< maximum distance by which a surface may have approached the finger in this tick [m]
   Pose X_WA = {};

@@ -98,6 +98,7 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
                   .out = out,
                   .all = contact_.value,
                   .touchables = touchables_,
+                  .time = now.time,
                   .period = now.period,
                   .r = finger.radius,
                   .own_contacts = own_contacts_};

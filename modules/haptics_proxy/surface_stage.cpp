@@ -13,8 +13,8 @@ class Surfaces final : public SurfaceStage {
   void apply(FingerTick& tick) noexcept override {
     ProxyContact& contact = tick.contact;
     if (!contact.state.touching || !effects_.on(contact.body)) return;
-    const SurfaceInput input{tick.index, tick.period, tick.r,          tick.g,
-                             contact,    tick.X_WA,   tick.touchables, *tick.finger.near};
+    const SurfaceInput input{tick.index, tick.time, tick.period,     tick.r,           tick.g,
+                             contact,    tick.X_WA, tick.touchables, *tick.finger.near};
     if (!effects_.act(input, surfaces_.of(contact.body).stiffness, contact, tick.softness)) tick.broken = true;
   }
   std::string what() const override {

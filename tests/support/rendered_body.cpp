@@ -11,10 +11,11 @@ namespace {
 
 constexpr double kRadius = 0.008, kStiffness = 1000, kPeriod = 1e-3;
 
-std::shared_ptr<const World> worldWith(const std::string& haptics, const std::string& shape,
-                                       const std::string& effects) {
+std::shared_ptr<const World> worldWith(const std::string& haptics, const std::string& shape, const std::string& effects,
+                                       const std::string& material_effects) {
   return fingerWorld(R"(<scene version="1.0" name="rendered"><world gravity="0 0 0"/>)" + haptics +
-                     R"(<materials><material name="any" stiffness="1000"/></materials>
+                     R"(<materials><material name="any" stiffness="1000">)" + material_effects +
+                     R"(</material></materials>
     <body name="body" fixed="true" material="any"><haptic>)" +
                      shape + "</haptic>" + effects + R"(</body>
     <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)");
@@ -23,8 +24,9 @@ std::shared_ptr<const World> worldWith(const std::string& haptics, const std::st
 }  // namespace
 
 struct RenderedBody::Parts {
-  Parts(const std::string& haptics, const std::string& shape, const std::string& effects)
-      : world(worldWith(haptics, shape, effects)),
+  Parts(const std::string& haptics, const std::string& shape, const std::string& effects,
+        const std::string& material_effects)
+      : world(worldWith(haptics, shape, effects, material_effects)),
         renderer(makeRenderer(*world)),
         touchables(*world),
         near(touchables.meshCount()),
@@ -38,16 +40,19 @@ struct RenderedBody::Parts {
   ProxyState proxy;
   Vec3 last_p_WH = Vec3::Zero();
   bool alive = false;
+  double time = 0;  // [s]
 };
 
-RenderedBody::RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects)
-    : parts_(std::make_unique<Parts>(haptics, shape, effects)) {}
+RenderedBody::RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects,
+                           const std::string& material_effects)
+    : parts_(std::make_unique<Parts>(haptics, shape, effects, material_effects)) {}
 RenderedBody::~RenderedBody() = default;
 
 Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   Parts& p = *parts_;
   if (!p.alive) p.proxy.x = p.proxy.god_object = p.last_p_WH = p_WH;
   p.alive = true;
+  p.time += kPeriod;
   const double moved = (p_WH - p.last_p_WH).norm(), way = (p.proxy.god_object - p_WH).norm();
   p.last_p_WH = p_WH;
   p.touchables.surround(p.near, kNoBody, p_WH, way + 1.1 * kRadius, moved, kPeriod, nullptr);
@@ -61,7 +66,8 @@ Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   if (!contact.state.touching) return Vec3::Zero();
   double softness = 1;
   if (p.surface.on(contact.body) &&
-      !p.surface.act({0, kPeriod, kRadius, p_WH, contact, X_WA, p.touchables, p.near}, kStiffness, contact, softness))
+      !p.surface.act({0, p.time, kPeriod, kRadius, p_WH, contact, X_WA, p.touchables, p.near}, kStiffness, contact,
+                     softness))
     return broken;
   return softness * kStiffness * (contact.depth * contact.nhat + contact.tangential_displacement);
 }

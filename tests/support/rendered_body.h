@@ -15,8 +15,9 @@ namespace presa::test {
 class RenderedBody {
  public:
   /// `haptics`: the scene's <haptics>, or empty; `shape`: the haptic geometry of the body; `effects`: surface effects of
-  /// the body. Throws InputError with every finding.
-  RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects = {});
+  /// the body; `material_effects`: of its material. Throws InputError with every finding.
+  RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects = {},
+               const std::string& material_effects = {});
   ~RenderedBody();
 
   /// One tick of 1 ms with the device at p_WH. Returns the force on it [N]; NaN if the renderer or an effect breaks
