@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/framework/grasp/grasps.h"
+#include "tests/support/effort.h"
 
 namespace presa::test {
 namespace {
@@ -123,7 +124,7 @@ TEST(Quality, BoundsHoldAndMeetForAnyGrasp) {
   const double coarse = (1 - std::cos(std::numbers::pi / kEdges)) * 5 * 2 * 1.2 * (1 + 1.2);
   RandomStream random(11, "quality");
   int full = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < unlessSanitized(40, 12); ++i) {
     const GraspSnapshot grasp = anyGrasp(random, 2 + i % 4);
     const GripBound bound = i % 2 == 0 ? GripBound::kSum : GripBound::kEach;
     const GraspQuality quality = graspQuality(grasp, bound);
@@ -139,7 +140,7 @@ TEST(Quality, BoundsHoldAndMeetForAnyGrasp) {
     EXPECT_NEAR(weakest, quality.epsilon.at_most, coarse) << i;
     EXPECT_GE(lowestSupport(grasp, bound, random), quality.epsilon.at_least - coarse) << i;
   }
-  EXPECT_GT(full, 10);
+  EXPECT_GT(full, unlessSanitized(10, 2));
 }
 
 /// Two results for what is the same grasp: the exact value is in both intervals.
