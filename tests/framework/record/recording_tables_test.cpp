@@ -71,9 +71,9 @@ TEST_F(RecordingTables, NameTheirColumnsAndUnits) {
 // A recorded pose is that of its tick, not of the end of the step: here a quarter of the way from start to end.
 TEST_F(RecordingTables, HoldThePoseAtTheTick) {
   const auto numbers = dataNumbers(dump("-y -d /haptic/bodies/cube -m %.17g"));
-  constexpr std::size_t kColumns = 15;
-  ASSERT_GE(numbers.size(), 20 * kColumns);
-  const double* row = &numbers[7 * kColumns];
+  constexpr std::size_t kRowColumns = 15;
+  ASSERT_GE(numbers.size(), 20 * kRowColumns);
+  const double* row = &numbers[7 * kRowColumns];
   // times of about 0.01 s subtract with an error of 2e-18, 5e-16 of the 4 ms span; 4 m of travel and the slerp: 1e-14
   constexpr double kTolerance = 1e-14;
   const double eighth = std::acos(-1.0) / 8;  // a quarter of 180 degrees, halved by the quaternion

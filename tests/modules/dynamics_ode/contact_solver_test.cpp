@@ -11,7 +11,7 @@
 namespace presa::ode {
 namespace {
 
-using Solver = DynamicsSettings::Solver;
+using SolverKind = DynamicsSettings::Solver;
 
 TEST(BlockCholesky, SolvesLikeADenseFactorisation) {
   std::mt19937 generator(7);
@@ -209,7 +209,7 @@ TEST(Energy, OfAnOverlapThatIsPushedApartIsCounted) {
 }
 
 TEST(Overlap, IsPushedApartNoFasterThanTheBound) {
-  for (const Solver solver : {Solver::kNewton, Solver::kSmallSteps}) {
+  for (const SolverKind solver : {SolverKind::kNewton, SolverKind::kSmallSteps}) {
     WorldMaker maker;
     maker.table().box({0.5, 0.5, 0.2}, 1, {{0, 0, 0.03}, Quat::Identity()});
     OdeOptions options;
@@ -227,7 +227,7 @@ TEST(Overlap, IsPushedApartNoFasterThanTheBound) {
 
 // A block on a slope below its friction angle does not creep: friction is a spring that remembers.
 TEST(Friction, HoldsWithoutCreep) {
-  for (const Solver solver : {Solver::kNewton, Solver::kSmallSteps}) {
+  for (const SolverKind solver : {SolverKind::kNewton, SolverKind::kSmallSteps}) {
     WorldMaker maker;
     maker.friction(0.6).gravity(turn(radians(25), Vec3::UnitY()) * Vec3(0, 0, -kGravity));
     maker.table().box(kCube, 0.1, {{0, 0, kEdge / 2}, Quat::Identity()});

@@ -127,8 +127,8 @@ TEST(SceneWithTaps, RunsWithoutAFaultAndRingsByMaterial) {
 }
 
 TEST(BadTap, IsRefusedWithItsPlace) {
-  const test::Outcome slow =
-      test::presa("run " + test::source("config/scenes/taps.xml") + " --lockstep --set rates/haptic=500");
+  const test::Outcome slow = test::presa("run " + test::source("config/scenes/taps.xml") +
+                                         " --lockstep --set rates/haptic=500 --set rates/dynamics=100");
   EXPECT_EQ(slow.status, 2);
   EXPECT_NE(slow.err.find("taps.xml:"), std::string::npos) << slow.err;
   EXPECT_NE(slow.err.find("frequency is above a quarter of the haptic rate"), std::string::npos) << slow.err;
