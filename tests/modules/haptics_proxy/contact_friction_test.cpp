@@ -7,6 +7,7 @@
 
 #include "framework/core/math/random.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
+#include "tests/support/effort.h"
 
 namespace presa {
 namespace {
@@ -169,7 +170,7 @@ World rubble(RandomStream& random) {
 // bodies than before. Of 50 piles of rubble, with a finger that moves 2 mm in a tick.
 TEST(ContactFriction, TheContactsExplainTheWholeDisplacement) {
   int several = 0;
-  for (std::uint64_t pile = 0; pile < 50; ++pile) {
+  for (std::uint64_t pile = 0; pile < unlessSanitized(50U, 10U); ++pile) {
     RandomStream random(1, "displacement", pile);
     test::OneFinger finger(rubble(random));
     const auto anywhere = [&] {
@@ -188,7 +189,7 @@ TEST(ContactFriction, TheContactsExplainTheWholeDisplacement) {
       ASSERT_NEAR((sum - (contact.p_WP - contact.p_WH)).norm(), 0, 1e-12) << pile << ", " << i;
     }
   }
-  EXPECT_GT(several, 1000);
+  EXPECT_GT(several, unlessSanitized(1000, 200));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "framework/haptics/nearest_feasible.h"
 #include "modules/god_object/god_object.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
+#include "tests/support/effort.h"
 
 namespace presa {
 namespace {
@@ -292,7 +293,7 @@ TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
   Tip tip{{0.03, 0, 0.03}, {0.03, 0, 0.03}};
   Vec3 g = tip.x, wall(-0.02, 0, 0.02), post(0.02, 0, -0.02);
   int touching = 0, stuck = 0;
-  for (int tick = 0; tick < 20'000; ++tick) {
+  for (int tick = 0; tick < unlessSanitized(20'000, 5'000); ++tick) {
     if (tick % 50 == 0) {
       wall = Vec3(-0.02, 0, 0.02) + 0.002 * Vec3(unit(random), unit(random), unit(random));
       post = Vec3(0.02, 0, -0.02) + 0.002 * Vec3(unit(random), unit(random), unit(random));
@@ -311,8 +312,8 @@ TEST(Friction, ATouchingProxyIsOnASurfaceWhateverMoves) {
         std::min(nearest(s->primitive(0), tip.x).distance, nearest(s->primitive(1), tip.x).distance) - kR;
     ASSERT_LE(off, 1e-4 * kR) << tick;
   }
-  EXPECT_GT(touching, 5000);
-  EXPECT_GT(stuck, 1000);
+  EXPECT_GT(touching, unlessSanitized(5000, 1250));
+  EXPECT_GT(stuck, unlessSanitized(1000, 250));
 }
 
 // Brute force: no feasible sample is nearer to the goal than the solution of the programme.
