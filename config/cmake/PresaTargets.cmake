@@ -1,6 +1,6 @@
 option(PRESA_TESTS "Build the tests" ON)
 option(PRESA_UNITY "Compile several files of a library or a test at once: a cold build takes a third of the time" ON)
-set(PRESA_BATCH 8 CACHE STRING "Files of a library that are compiled at once, half as many as of a test: more build faster from nothing, fewer after a change")
+set(PRESA_BATCH 8 CACHE STRING "Files of a library that are compiled at once, and half of those of a test: large batches build faster from nothing, small ones after a change")
 set(PRESA_SANITIZE "" CACHE STRING "Value for -fsanitize= (address,undefined or thread); empty: none")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -39,13 +39,10 @@ if(PRESA_SANITIZE)
 endif()
 
 # presa_unity(TARGET ALONE pattern …): compiles its files in batches, but for those that a pattern fits: they have names in their unnamed
-# name space that others of the batch have, too. SIZE: of a batch, PRESA_BATCH by default.
+# name space that others of the batch have, too.
 function(presa_unity target)
-  cmake_parse_arguments(ARG "" "SIZE" "ALONE" ${ARGN})
-  if(NOT ARG_SIZE)
-    set(ARG_SIZE ${PRESA_BATCH})
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PRESA_UNITY} UNITY_BUILD_BATCH_SIZE ${ARG_SIZE})
+  cmake_parse_arguments(ARG "" "" "ALONE" ${ARGN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PRESA_UNITY} UNITY_BUILD_BATCH_SIZE ${PRESA_BATCH})
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     foreach(pattern IN LISTS ARG_ALONE)
@@ -137,8 +134,9 @@ function(presa_test name)
   endif()
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE presa_framework ${ARG_LIBRARIES} GTest::gtest_main)
+  presa_unity(test_${name} ALONE ${ARG_ALONE})
   math(EXPR batch "2 * ${PRESA_BATCH}")
-  presa_unity(test_${name} SIZE ${batch} ALONE ${ARG_ALONE})
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE ${batch})
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   if(PRESA_SANITIZE)
     target_compile_definitions(test_${name} PRIVATE PRESA_SANITIZE) # tests/support/effort.h

@@ -13,8 +13,6 @@ namespace {
 using Basis = Characteristic::Basis;
 using Figures = std::vector<Characteristic>;
 
-constexpr double kApart = 1.5;  // distance of two arms that face each other, as in the shipped rig [m]
-
 /// A figure with one published number.
 Characteristic printedAs(const std::string& name, const std::string& unit, double printed, double here,
                          double tolerance, Basis basis, const std::string& note) {
@@ -53,7 +51,7 @@ void addWorkspace(const Parameters& p, Figures& out) {
   out.push_back(atLeast("box of 300 x 400 x 600 mm, 600 across: scale that fits", 1, largestScale(g, wide),
                         "2.1.1; with tilt to 45 and yaw to 40 degrees"));
   out.push_back(
-      atLeast("the same in the reach of both arms, 1.5 m apart", 1, largestCommonScale(g, wide, kApart), "fig. 3"));
+      atLeast("the same in the reach of both arms, 1.5 m apart", 1, largestCommonScale(g, wide, kArmsApart), "fig. 3"));
   double worst = 0;
   for (const double x : steps(g.length_min, g.length_max, 60)) {
     for (const double y : steps(0, 0.15, 15)) {

@@ -9,7 +9,6 @@ namespace presa::percro {
 namespace {
 
 constexpr double kMm = 1e3;
-constexpr double kPlotApart = 1.5;  // [m]
 
 /// Boundary of the reach in the plane of x and one angle of this range, for axes at x0, facing `side`. In mm.
 PlotLine edgeOf(const Geometry& g, double range, double x0, double side, int color, const std::string& label) {
@@ -74,13 +73,13 @@ DevicePlot workspace(const Geometry& g) {
       .x_label = "x [mm]",
       .y_label = "y, z [mm]",
       .equal_scales = true};
-  const double middle = 0.5 * kPlotApart;
+  const double middle = 0.5 * kArmsApart;
   for (const bool tilt : {true, false}) {
     const double range = tilt ? g.tilt_range : g.yaw_range;
     plot.panels.push_back(
         {tilt ? "plane XY (tilt)" : "plane XZ (yaw)",
          {edgeOf(g, range, 0, 1, 0, tilt ? "thumb's arm" : ""),
-          edgeOf(g, range, kPlotApart, -1, 1, tilt ? "index's arm" : ""),
+          edgeOf(g, range, kArmsApart, -1, 1, tilt ? "index's arm" : ""),
           rectangle(middle - 0.15, middle + 0.15, tilt ? 0.2 : 0.3, tilt ? "300 x 400 x 600 mm" : "", true),
           rectangle(g.length_min, g.length_min + 0.5994, tilt ? 0.15 : 0.2, tilt ? "600 mm along the barrel" : "",
                     false)}});

@@ -4,6 +4,9 @@
 /// Reach of an arm, and its force there. Thread: any.
 namespace presa::percro {
 
+/// Distance between the axes of two arms that face each other in the shipped rig [m].
+inline constexpr double kArmsApart = 1.5;
+
 /// A box with faces along D's axes: sizes along x, y, z [m], near face at x = near, centred on the x axis.
 struct ReachBox {
   Vec3 size = Vec3::Zero();

@@ -28,6 +28,8 @@ class FailingDevice final : public WrappedDevice {
   Failure failure_;
 };
 
+inline constexpr double kHoldLimit = 8;  ///< force limit of faults/hold.xml [N]
+
 /// The hold scenario: thumb and index close on a cube, lift it and hold it while the fault occurs.
 struct Hold {
   std::string scene = "faults/hold.xml";                   ///< file below experiments, or an absolute path

@@ -8,7 +8,6 @@
 namespace presa::faults {
 namespace {
 
-constexpr double kHoldLimit = 8;     // of the scene [N]
 constexpr double kReducedLimit = 3;  // reduced limit of the scene, below the force of the grasp [N]
 
 /// All forces of a complete hold.

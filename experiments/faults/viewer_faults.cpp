@@ -11,8 +11,7 @@
 namespace presa::faults {
 namespace {
 
-constexpr int kNetworkRuns = 100;   // each opens a network
-constexpr double kViewedLimit = 8;  // of the scene [N]
+constexpr int kNetworkRuns = 100;  // each opens a network
 
 /// Forces and energies of a complete hold, tick by tick.
 struct Trace {
@@ -25,7 +24,7 @@ struct Trace {
 Trace traceOf(const Hold& hold, Outcome& outcome, const std::function<void(double)>& meanwhile = {}) {
   Trace trace;
   runHold(hold, [&](double time, const Traffic& traffic) {
-    requireBounded(traffic, kViewedLimit, outcome);
+    requireBounded(traffic, kHoldLimit, outcome);
     trace.force.push_back(traffic.force);
     trace.energy.push_back(traffic.energy);
     trace.step = traffic.step;

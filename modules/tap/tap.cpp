@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
+#include "framework/haptics/rendered_frequency.h"
 #include "framework/haptics/surface_effect.h"
 
 namespace presa {
 namespace {
 
-constexpr double kSlowest = 0.01;        // a touch, not a hit [m/s]
-constexpr double kSamplesPerPeriod = 4;  // at least
+constexpr double kSlowest = 0.01;  // a touch, not a hit [m/s]
+constexpr double kLasts = 30;      // in decays: 1e-13 of the amplitude is left
 
 class Tap final : public SurfaceEffect {
  public:
@@ -23,8 +23,7 @@ class Tap final : public SurfaceEffect {
         gain_(element.number("gain")),
         max_force_(element.number("max_force")),
         tools_(scene.devices.size()) {
-    if (element.number("frequency") * kSamplesPerPeriod > scene.rates.haptic)
-      throw std::invalid_argument("frequency is above a quarter of the haptic rate");
+    requireRendered(element.number("frequency"), scene.rates);
     std::ostringstream text;
     text << "tap: rings at " << element.number("frequency") << " Hz for " << 1e3 * decay_ << " ms, " << gain_
          << " N a m/s";
@@ -46,6 +45,10 @@ class Tap final : public SurfaceEffect {
     ring.last = input.time;
     if (ring.amplitude == 0 || !(contact.stiffness > 0)) return;
     const double t = input.time - ring.start;
+    if (t > kLasts * decay_) {
+      ring.amplitude = 0;
+      return;
+    }
     const double force = ring.amplitude * std::exp(-t / decay_) * std::sin(w_ * t);
     contact.depth = std::max(0.0, contact.depth + force / contact.stiffness);
   }

@@ -4,21 +4,18 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
-#include <stdexcept>
 
+#include "framework/haptics/rendered_frequency.h"
 #include "framework/haptics/surface_effect.h"
 
 namespace presa {
 namespace {
 
-constexpr double kSamplesPerPeriod = 4;  // at least
-
 class Vibration final : public SurfaceEffect {
  public:
   Vibration(const PluginElement& element, const Scene& scene)
       : frequency_(element.number("frequency")), amplitude_(element.number("amplitude")), off_(element.number("off")) {
-    if (frequency_ * kSamplesPerPeriod > scene.rates.haptic)
-      throw std::invalid_argument("frequency is above a quarter of the haptic rate");
+    requireRendered(frequency_, scene.rates);
     on_ = std::max(1.0, std::round(element.number("on") * frequency_)) / frequency_;
     std::ostringstream text;
     text << "vibration: " << amplitude_ << " N at " << frequency_ << " Hz";

@@ -14,6 +14,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 INCLUDE = re.compile(r'^#include "(.*)"', re.MULTILINE)
+FIRST = re.compile(r"^#include .*", re.MULTILINE)
 SPATIAL = "framework/core/math/spatial.h"
 
 
@@ -32,7 +33,8 @@ def main():
 
         def stands_first(header):
             beside = (source / header).with_suffix(".cpp")
-            return beside.is_file() and INCLUDE.findall(beside.read_text())[:1] == [header]
+            first = FIRST.search(beside.read_text()) if beside.is_file() else None
+            return first is not None and first[0] == f'#include "{header}"'
 
         @functools.cache
         def reached(header):

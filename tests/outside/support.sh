@@ -1,5 +1,5 @@
-# For the scripts beside it, with `build` and `prefix` set: the words of a stranger who has the package and nothing else.
-# shellcheck shell=bash disable=SC2154
+# For the scripts beside it: a scratch folder, and the words of a stranger who has the package and nothing else.
+# shellcheck shell=bash
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit
@@ -12,6 +12,6 @@ refused() {  # TEXT COMMAND…: exit status 2, and the message has TEXT
   ((code == 2)) || fail "exit status $code of: $*"
   shows "$message" "$text"
 }
-# nothing of the tree that Presa was built in
+# PREFIX: from here on `run` knows nothing of the tree that Presa was built in
 use_prefix() { bare=(env -i "PATH=$1/bin:/usr/bin:/bin" "HOME=$work"); }
 run() { "${bare[@]}" "$@"; }
