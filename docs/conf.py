@@ -1,4 +1,10 @@
-# Settings of Sphinx; docs/site.py calls it.
+# Settings of Sphinx; docs/guide.py calls it.
+from pygments.lexers.special import TextLexer
+from sphinx.highlighting import lexers
+
+for language in ("csv", "obj", "output"):
+    lexers[language] = TextLexer()
+
 project = "Presa"
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath"]

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
             presa::addSchema(app, status);
             presa::addNew(app, status);
             presa::addModel(app, status);
+            presa::addImport(app, status);
             presa::addReplay(app, status);
             presa::addDevice(app, status);
             presa::addView(app, status);

@@ -15,13 +15,14 @@ constexpr std::size_t kMaxLongReadmeLines = 140;  // the root's README, and conf
 
 struct Library {
   const char* headers;  ///< regular expression for the included name
-  const char* home;     ///< the one folder that may include it
+  const char* home;     ///< a folder that may include it
 };
 
 // tests may include any library, as an independent oracle
 constexpr std::array kLibraries{
     Library{"ode/.*", "modules/dynamics_ode/"},
     Library{"mujoco/.*", "modules/dynamics_mujoco/"},
+    Library{"mujoco/.*", "apps/robot_reader/"},
     Library{"bt[A-Z].*|Bullet.*|LinearMath/.*", "modules/dynamics_bullet/"},
     Library{"(fcl|ccd|octomap)/.*", "modules/collision_fcl/"},
     Library{"(osg[A-Za-z]*|OpenThreads|EGL|X11|GL|GLES[23]?)/.*", "modules/view_osg/"},
@@ -79,7 +80,8 @@ const std::vector<Arrows>& arrows() {
       // fault rehearsals use the driver and a model of its device
       {"experiments/faults/", {"framework/", "experiments/study/", "devices/novint_falcon/", "devices/falcon_model/"}},
       {"apps/common/", {"framework/"}},
-      {"apps/presa/", {"framework/", "devices/", "apps/common/"}},
+      {"apps/presa/", {"framework/", "devices/", "apps/common/", "apps/robot_reader/"}},
+      {"apps/robot_reader/", {"framework/"}},
       {"apps/experiment/", {"framework/", "experiments/runner/", "apps/common/"}},
       {"apps/temple/", {"framework/", "experiments/study/", "apps/common/"}},
       {"apps/studies/", {"framework/", "experiments/", "apps/common/"}},
@@ -101,11 +103,16 @@ std::string ownRoom(const Arrows& arrows, const SourceFile& file) {
 Finding includesForeignLibrary(const SourceFile& file) {
   if (!file.isCpp() || file.topFolder() == "tests") return {};
   for (const std::string& name : file.includes()) {
+    std::string homes;  // that the file is not in
     for (const Library& library : kLibraries) {
-      if (std::regex_match(name, std::regex(library.headers)) && !file.path.starts_with(library.home)) {
-        return "includes <" + name + ">, which belongs to " + library.home;
+      if (!std::regex_match(name, std::regex(library.headers))) continue;
+      homes += (homes.empty() ? "" : ", ") + std::string(library.home);
+      if (file.path.starts_with(library.home)) {
+        homes.clear();
+        break;
       }
     }
+    if (!homes.empty()) return "includes <" + name + ">, which belongs to " + homes;
   }
   return {};
 }

@@ -13,6 +13,7 @@ void addPlugins(Command app, int& status);
 void addSchema(Command app, int& status);
 void addNew(Command app, int& status);
 void addModel(Command app, int& status);
+void addImport(Command app, int& status);
 void addReplay(Command app, int& status);
 void addView(Command app, int& status);
 void addBus(Command app, int& status);

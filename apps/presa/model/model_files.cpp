@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/scene_name.h"
 #include "apps/common/terminal/text.h"
 #include "framework/geometry/obj_text.h"
 #include "framework/scene/xml/escaped.h"
@@ -17,17 +18,7 @@ enum ModelCode { kTarget = 128 };
 
 constexpr double kHapticShare = 0.6;  // of the work that `go_on` is told about
 
-/// The file's name as the name of a body: letters, digits and _ - . after a letter.
-std::string nameOf(const std::string& file) {
-  std::string name = fs::path(file).stem().string();
-  const auto fits = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
-  };
-  std::ranges::replace_if(
-      name, [&](char c) { return !fits(c); }, '_');
-  const bool begins = !name.empty() && (std::isalpha(static_cast<unsigned char>(name[0])) != 0 || name[0] == '_');
-  return begins ? name : "_" + name;
-}
+std::string nameOf(const std::string& file) { return sceneName(fs::path(file).stem().string()); }
 
 std::string hapticFile(const std::string& name) { return name + "_haptic.obj"; }
 std::string pieceFile(const std::string& name, std::size_t i) {

@@ -1,0 +1,60 @@
+#include <cstdio>
+#include <memory>
+
+#include "apps/common/terminal/waiting.h"
+#include "apps/presa/check/start_warnings.h"
+#include "apps/presa/commands/commands.h"
+#include "apps/presa/import/import_robot.h"
+
+namespace presa {
+namespace {
+
+/// What `presa check` says of the new scene.
+bool loads(const std::string& scene) {
+  Diagnostics diagnostics;
+  RunOptions options;
+  options.bound_stiffness = true;
+  const Loaded loaded = loadWorld({scene, "", {}}, options, diagnostics);
+  if (!diagnostics.hasErrors()) check::warnOfStart(loaded, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return !diagnostics.hasErrors();
+}
+
+int importFile(const robot::Wanted& wanted) {
+  Diagnostics diagnostics;
+  std::optional<robot::Imported> imported;
+  robot::checkTarget(wanted, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    const terminal::Waiting waiting("reading " + wanted.file);
+    imported = robot::importRobot(wanted, diagnostics);
+  }
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!imported) return kExitBadInput;
+  const std::string scene = robot::write(wanted, *imported);
+  const std::string left_out = robot::leftOutText(*imported);
+  std::printf("%s\n", scene.c_str());
+  if (!left_out.empty()) std::printf("left out or changed:\n%s", left_out.c_str());
+  std::fflush(stdout);
+  return loads(scene) ? kExitOk : kExitBadInput;
+}
+
+}  // namespace
+
+void addImport(Command app, int& status) {
+  auto wanted = std::make_shared<robot::Wanted>();
+  Command command = app.command("import", "Make a scene from a robot or another model in URDF or MJCF");
+  command.option("FILE", wanted->file, "URDF (<robot>) or MJCF (<mujoco>)").required().existingFile();
+  command.option("--out", wanted->folder, "folder for the scene, its rig and its meshes").required();
+  command.option("--stiffness", wanted->stiffness, "of all surfaces under a finger [N/m]").positive().showDefault();
+  command.flag("--free-base", wanted->free_base, "the root link of a URDF moves freely; else it stands still");
+  command.flag("--overwrite", wanted->overwrite, "replace files of before");
+  command.footer(
+      "Links become bodies with the file's masses and inertias, its joints become joints, with limits, springs, "
+      "damping "
+      "and\nfriction. Fingers feel what collides. What the scene does not have is listed.\n"
+      "Exit status: 0 done, 2 bad input.\n"
+      "Example:  presa import gripper.urdf --out gripper && presa run gripper/gripper.xml --view window");
+  command.action([wanted, &status] { status = importFile(*wanted); });
+}
+
+}  // namespace presa

@@ -1,0 +1,234 @@
+#include "apps/presa/import/scene_text.h"
+
+#include <algorithm>
+#include <set>
+
+#include "apps/common/scene_name.h"
+#include "apps/common/terminal/text.h"
+#include "apps/presa/import/codes.h"
+#include "apps/presa/import/joint_text.h"
+#include "apps/presa/import/solids.h"
+#include "framework/geometry/convex.h"
+#include "framework/geometry/obj_text.h"
+#include "framework/scene/xml/escaped.h"
+
+namespace presa::robot {
+namespace {
+
+using terminal::format;
+
+constexpr std::size_t kMaxShapes = 256;        // of one physics geometry
+constexpr std::size_t kMaxHullVertices = 256;  // of the convex hull of a mesh
+constexpr int kDigits = 9;
+
+/// Names that scenes allow, different for each call.
+class Names {
+ public:
+  std::string unique(const std::string& wanted, const std::string& otherwise) {
+    const std::string name = sceneName(wanted.empty() ? otherwise : wanted);
+    std::string free = name;
+    for (int i = 2; !taken_.insert(free).second; ++i) free = name + "_" + std::to_string(i);
+    return free;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+class Writer {
+ public:
+  Writer(const Robot& robot, const SceneSettings& settings, Diagnostics& diagnostics)
+      : robot_(robot), settings_(settings), diagnostics_(diagnostics) {}
+
+  SceneFiles files() {
+    std::string bodies = staticBodies();
+    for (std::size_t i = 1; i < robot_.links.size(); ++i) {
+      names_of_.resize(i + 1);
+      names_of_[i] = names_.unique(robot_.links[i].name, "link_" + std::to_string(i));
+      bodies += linkBody(robot_.links[i], names_of_[i]);
+      addJoint(i);
+    }
+    files_.scene = head() + materials_text_ + "  </materials>\n" + bodies + joints_ +
+                   "  <devices>\n    <device role=\"thumb\"/>\n    <device role=\"index\"/>\n  </devices>\n</scene>\n";
+    files_.others[settings_.name + "_rig.xml"] =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Mouse and keys of the window move both fingers. -->\n"
+        "<rig version=\"1.0\" name=\"" +
+        settings_.name +
+        "\">\n  <device role=\"thumb\" driver=\"pointer\"/>\n  <device role=\"index\" driver=\"pointer\"/>\n</rig>\n";
+    return std::move(files_);
+  }
+
+ private:
+  std::string head() const {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"1.0\" name=\"" + settings_.name + "\" rig=\"" +
+           settings_.name + "_rig.xml\"\n       description=\"Imported from " + xml::escaped(settings_.source) +
+           "\">\n  <world" + vectorText("gravity", robot_.gravity) + "/>\n  <materials>\n";
+  }
+
+  /// The name of the material with this part's friction and colour.
+  std::string materialOf(const Part& part) {
+    std::string text = numberText("stiffness", settings_.stiffness) +
+                       format(" color=\"%.3g %.3g %.3g\"", part.color.x(), part.color.y(), part.color.z());
+    text += part.friction > 0 ? ">\n      <friction" + numberText("static", part.friction) + "/>\n    </material>\n"
+                              : "/>\n";
+    const auto [known, is_new] = materials_.try_emplace(text, "material_" + std::to_string(materials_.size() + 1));
+    if (is_new) materials_text_ += "    <material name=\"" + known->second + "\"" + text;
+    return known->second;
+  }
+
+  std::string file(const std::string& name, const std::string& text) {
+    const std::string path = "meshes/" + name + ".obj";
+    files_.others[path] = text;
+    return "<mesh file=\"" + path + "\"/>";
+  }
+
+  static bool isPrimitive(const Part& part) { return !primitiveText(part).empty(); }
+
+  /// A geometry of one shape: <haptic …><box …/></haptic>.
+  static std::string one(const std::string& element, const std::string& attributes, const Part& part) {
+    return "    <" + element + attributes + poseText(placeOf(part)) + ">" + primitiveText(part) + "</" + element +
+           ">\n";
+  }
+
+  std::string visual(const std::vector<Part>& drawn, const std::string& body) {
+    if (drawn.size() == 1 && isPrimitive(drawn[0])) return one("visual", "", drawn[0]);
+    return "    <visual>" + file(body + "_drawn", coloredObj(drawn, robot_)) + "</visual>\n";
+  }
+
+  /// What fingers feel: the surface, or where a mesh of the file is open, its convex hull.
+  std::string haptic(const std::vector<Part>& solid, const std::string& body) {
+    if (solid.size() == 1 && isPrimitive(solid[0])) return one("haptic", "", solid[0]);
+    TriMesh all;
+    for (const Part& part : solid) {
+      TriMesh mesh = surfaceOf(part, robot_);
+      if (part.solid == Solid::kMesh && !isSound(mesh)) {
+        mesh = hullOf(part);
+        files_.notes.push_back("'" + body + "': fingers feel the convex hull of mesh '" + robot_.names[part.mesh] +
+                               "', which is not closed");
+      }
+      const auto first = static_cast<std::int32_t>(all.vertices.size());
+      all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+      for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return "    <haptic>" + file(body + "_felt", objText(all, kDigits)) + "</haptic>\n";
+  }
+
+  static bool isSound(const TriMesh& mesh) {
+    const MeshReport report = checkMesh(mesh);
+    return report.closed() && report.flipped_edges == 0 && report.degenerate == 0 && !report.inverted;
+  }
+
+  TriMesh hullOf(const Part& part) const {
+    const TriMesh mesh = surfaceOf(part, robot_);
+    return convexHull(mesh.vertices, kMaxHullVertices).value_or(mesh);
+  }
+
+  std::string physics(const std::vector<Part>& solid, const std::string& attributes, const std::string& body) {
+    if (solid.size() == 1 && isPrimitive(solid[0])) return one("physics", attributes, solid[0]);
+    std::string text = "    <physics" + attributes + ">\n";
+    for (std::size_t i = 0; i < std::min(solid.size(), kMaxShapes); ++i) {
+      const Part& part = solid[i];
+      const std::string numbered = body + "_piece_" + std::to_string(i + 1);
+      text += "      " +
+              (isPrimitive(part) ? primitiveText(part, poseText(placeOf(part)))
+                                 : file(numbered, objText(hullOf(part), kDigits))) +
+              "\n";
+    }
+    if (solid.size() > kMaxShapes)
+      files_.notes.push_back(format("'%s': only the first %zu of its %zu solids collide with bodies", body.c_str(),
+                                    kMaxShapes, solid.size()));
+    return text + "    </physics>\n";
+  }
+
+  /// What stands still, a body for each solid.
+  std::string staticBodies() {
+    std::string bodies;
+    for (const Part& part : robot_.links[0].parts) {
+      const std::string name = names_.unique(part.name, "static");
+      Part own = part;
+      own.X_LG = {};
+      bodies += "  <body name=\"" + name + "\" fixed=\"true\" material=\"" + materialOf(part) + "\"" +
+                poseText(part.X_LG) + ">\n";
+      if (!part.collides) bodies += visual({own}, name);
+      if (part.collides) bodies += haptic({own}, name) + physics({own}, "", name);
+      bodies += "  </body>\n";
+    }
+    return bodies;
+  }
+
+  std::string linkBody(const Link& link, const std::string& name) {
+    std::vector<Part> solid, drawn;
+    for (const Part& part : link.parts) (part.collides ? solid : drawn).push_back(part);
+    const std::vector<Part> felt = solid;
+    if (solid.empty()) solid.push_back(ballOf(link, name));
+    noteFrictions(solid, name);
+    const Part& first = felt.empty() && !drawn.empty() ? drawn.front() : solid.front();
+    std::string text =
+        "  <body name=\"" + name + "\" material=\"" + materialOf(first) + "\"" + poseText(link.X_WL) + ">\n";
+    const bool colours = std::ranges::any_of(felt, [&](const Part& p) { return p.color != felt.front().color; });
+    if (!drawn.empty() || colours) text += visual(drawn.empty() ? felt : drawn, name);
+    if (!felt.empty()) text += haptic(felt, name);
+    return text + physics(solid, inertiaText(link), name) + "  </body>\n";
+  }
+
+  static std::string inertiaText(const Link& link) {
+    const Mat3& m = link.inertia_L;
+    const Vec3 com = link.com_L.unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; });
+    return numberText("mass", link.mass) + vectorText("center", com) +
+           format(" inertia=\"%.9g %.9g %.9g %.9g %.9g %.9g\"", m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2));
+  }
+
+  /// A link without solids that collide: the ball that has its largest moment of inertia, about its centre of mass.
+  Part ballOf(const Link& link, const std::string& body) {
+    Part ball;
+    ball.solid = Solid::kSphere;
+    const double moment = link.inertia_L.diagonal().maxCoeff();
+    ball.size.x() = std::clamp(std::sqrt(2.5 * moment / std::max(link.mass, 1e-9)), 0.001, 0.1);
+    ball.X_LG.p = link.com_L;
+    ball.color = Vec3::Constant(0.5);
+    ball.collides = true;
+    files_.notes.push_back("'" + body + "' has no solid that collides; bodies meet a ball of " +
+                           format("%.3g", 1e3 * ball.size.x()) + " mm about its centre of mass");
+    return ball;
+  }
+
+  void noteFrictions(const std::vector<Part>& solid, const std::string& body) {
+    if (std::ranges::any_of(solid, [&](const Part& p) { return p.friction != solid.front().friction; }))
+      files_.notes.push_back("'" + body + "': all of it has the friction of its first solid");
+  }
+
+  void addJoint(std::size_t i) {
+    const Link& link = robot_.links[i];
+    const std::string to = link.parent == 0 ? "" : names_of_[link.parent];
+    const std::string wanted = link.freedoms.empty() ? "" : link.freedoms.front().name;
+    const std::string name = joint_names_.unique(wanted, names_of_[i] + "_joint");
+    const auto joint = jointOf(link, name, names_of_[i], to);
+    if (!joint) {
+      diagnostics_.error(kNoSuchJoint, {settings_.source, 0, 0},
+                         "body '" + link.name + "' has " + std::to_string(link.freedoms.size()) +
+                             " joints with its parent, and no joint of Presa moves like them",
+                         "fixed, hinge, slider, ball, universal (two hinges square to each other, through one point), "
+                         "prismatic_rotary (a slide and a hinge)");
+      return;
+    }
+    joints_ += joint->text;
+    files_.notes.insert(files_.notes.end(), joint->notes.begin(), joint->notes.end());
+  }
+
+  const Robot& robot_;
+  const SceneSettings& settings_;
+  Diagnostics& diagnostics_;
+  SceneFiles files_;
+  Names names_, joint_names_;
+  std::vector<std::string> names_of_{""};  ///< body of each link
+  std::map<std::string, std::string> materials_;
+  std::string materials_text_, joints_;
+};
+
+}  // namespace
+
+SceneFiles sceneOf(const Robot& robot, const SceneSettings& settings, Diagnostics& diagnostics) {
+  return Writer(robot, settings, diagnostics).files();
+}
+
+}  // namespace presa::robot

@@ -1,0 +1,218 @@
+// URDF and MJCF become scenes: where links are, what joints do, and what is said of the rest.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "apps/common/scratch_folder.h"
+#include "apps/presa/import/import_robot.h"
+#include "tests/apps/presa/support.h"
+
+namespace presa::robot {
+namespace {
+
+using std::numbers::pi;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kFixtures = PRESA_SOURCE_DIR "/tests/apps/presa/import/fixtures/";
+
+/// A scene made of a file, and the world that it loads.
+class Import : public testing::Test {
+ protected:
+  void import(const std::string& file, bool free_base = false) {
+    wanted_.file = file;
+    wanted_.folder = scratch_.file("out");
+    wanted_.free_base = free_base;
+    const auto imported = importRobot(wanted_, found_);
+    ASSERT_TRUE(imported) << found_.text();
+    said_ = leftOutText(*imported);
+    scene_ = write(wanted_, *imported);
+    world_ = loadWorld({scene_, "", {}}, {}, found_).world;
+    ASSERT_TRUE(world_) << found_.text();
+  }
+  /// Of this text as a file.
+  std::string refusal(const std::string& text) {
+    wanted_.file = scratch_.file("bad.xml");
+    std::ofstream(wanted_.file) << text;
+    EXPECT_FALSE(importRobot(wanted_, found_));
+    const std::string said = found_.text();
+    found_ = {};
+    return said;
+  }
+  const Body& body(const std::string& name) const { return world_->scene.bodies.at(indexOf(name)); }
+  const BodyInertia& inertia(const std::string& name) const { return world_->inertias.at(indexOf(name)); }
+  std::size_t indexOf(const std::string& name) const {
+    for (std::size_t i = 0; i < world_->scene.bodies.size(); ++i)
+      if (world_->scene.bodies[i].name == name) return i;
+    ADD_FAILURE() << "no body " << name;
+    return 0;
+  }
+  const Joint& joint(const std::string& name) const {
+    for (const Joint& joint : world_->scene.joints)
+      if (joint.name == name) return joint;
+    throw std::runtime_error("no joint " + name);
+  }
+
+  ScratchFolder scratch_;
+  Wanted wanted_;
+  Diagnostics found_;
+  std::string said_, scene_;
+  std::shared_ptr<const World> world_;
+};
+
+constexpr double kText = 1e-8;  // nine digits in the scene
+
+void expectNear(const Vec3& found, const Vec3& expected, double tolerance = kText) {
+  EXPECT_LT((found - expected).norm(), tolerance) << found.transpose() << " instead of " << expected.transpose();
+}
+
+// The wrist turns the palm by 90 degrees: what is along x in the palm is along y in the world.
+TEST_F(Import, LinksOfAUrdfAreWhereItsJointsPutThem) {
+  import(kFixtures + "gripper/urdf/gripper.urdf");
+  expectNear(body("palm").X_WB.p, {0, 0, 0.01});
+  expectNear(body("left_finger").X_WB.p, {0, 0.05, 0.07});
+  expectNear(body("left_finger").X_WB.q * Vec3::UnitX(), Vec3::UnitY());
+  expectNear(body("knob").X_WB.p, {0.035, 0, 0.04});
+  EXPECT_TRUE(body("static").fixed);  // the base
+  EXPECT_EQ(world_->scene.bodies.size(), 4u) << "the label is glued to the palm";
+}
+
+TEST_F(Import, InertiasAreThoseOfTheFile) {
+  import(kFixtures + "gripper/urdf/gripper.urdf");
+  const BodyInertia& palm = inertia("palm");
+  EXPECT_NEAR(palm.mass, 0.4, kText);
+  expectNear(palm.p_BCm, {0, 0, 0.03});
+  Mat3 expected;
+  expected << 3e-4, 0, 1e-5, 0, 4e-4, 0, 1e-5, 0, 2e-4;
+  EXPECT_LT((palm.inertia - expected).norm(), 1e-11) << palm.inertia;
+}
+
+TEST_F(Import, JointsHaveLimitsFrictionAndDamping) {
+  import(kFixtures + "gripper/urdf/gripper.urdf");
+  const Joint& wrist = joint("wrist");
+  ASSERT_EQ(wrist.axes.size(), 1u);
+  EXPECT_NEAR(*wrist.axes[0].lower, -1, kText);
+  EXPECT_NEAR(*wrist.axes[0].upper, 2, kText);
+  EXPECT_NEAR(wrist.axes[0].damping, 0.01, kText);
+  EXPECT_NEAR(wrist.axes[0].friction, 0.002, kText);
+  EXPECT_FALSE(joint("turn").axes[0].lower || joint("turn").axes[0].upper);
+  EXPECT_NEAR(*joint("slide").axes[0].upper, 0.04, kText);
+}
+
+TEST_F(Import, WhatIsLeftOutIsSaid) {
+  import(kFixtures + "gripper/urdf/gripper.urdf");
+  EXPECT_THAT(said_, AllOf(HasSubstr("<transmission>, 2 times, the first at"), HasSubstr("<gazebo> at"),
+                           HasSubstr("<mimic> at"), HasSubstr("effort and velocity of <limit>, 2 times")));
+  EXPECT_THAT(said_, HasSubstr("gripper.urdf:52"));
+}
+
+// A wedge of 30 x 20 x 10 mm, given in millimetres, and a box.
+TEST_F(Import, FingersFeelAllSolidsOfALink) {
+  import(kFixtures + "gripper/urdf/gripper.urdf");
+  const TriMesh& felt = *world_->meshes[indexOf("left_finger")].haptic;
+  EXPECT_NEAR(massProperties(felt).volume, 0.5 * 0.03 * 0.02 * 0.01 + 0.01 * 0.02 * 0.02, 1e-11);
+  EXPECT_TRUE(checkMesh(felt).closed());
+  EXPECT_TRUE(std::holds_alternative<Compound>(body("left_finger").physics->shape));
+}
+
+// Two bodies that start away from each other fall as one: what is between them is a joint, nothing else.
+TEST_F(Import, TheRootIsFreeOnDemand) {
+  import(kFixtures + "gripper/urdf/gripper.urdf", true);
+  EXPECT_FALSE(body("base").fixed);
+  EXPECT_EQ(joint("wrist").body, indexOf("palm"));
+}
+
+// Small swings of a rigid body, with the inertia that the file gives and its ball does not have: the period of a swing of
+// 0.1 rad is longer by 0.1^2 / 16.
+TEST_F(Import, APendulumHasThePeriodOfItsFile) {
+  import(kFixtures + "gripper/urdf/pendulum.urdf");
+  const double period = 2 * pi * std::sqrt((2e-3 + 0.5 * 0.09) / (0.5 * 9.81 * 0.3)) * (1 + 0.01 / 16);
+  RunOptions options;
+  options.duration = 10 * period;
+  const auto run = test::runScene(scene_, {}, options);
+  const Pose& X_WB = run->result().final_state.bodies[indexOf("bob")].X_WB;
+  const double angle = 2 * std::atan2(X_WB.q.y(), X_WB.q.w());
+  // an angle at rest at its turning point after ten periods; one that were late by 0.1 % would be off by 2e-4 rad
+  EXPECT_NEAR(angle, 0.1, 1e-4);
+}
+
+TEST_F(Import, MjcfHasItsDefaultsFramesAndIncludes) {
+  import(kFixtures + "mjcf/toys.xml");
+  expectNear(world_->scene.gravity, {0, 0, -1.62});
+  EXPECT_TRUE(body("ground").fixed);
+  const auto& post = std::get<Capsule>(body("post").haptic->shape);
+  EXPECT_NEAR(post.length, 0.4, kText);
+  expectNear(body("post").X_WB.p, {0.5, 0, 0.2});
+  EXPECT_NEAR(inertia("ball").mass, 0.2, kText);
+  EXPECT_NEAR(world_->scene.materialOf(body("egg")).friction_static, 0.3, kText);
+  EXPECT_NEAR(world_->scene.materialOf(body("ball")).friction_static, 0.7, kText);
+  EXPECT_NEAR(inertia("egg").mass, 500 * 4.0 / 3 * pi * 0.02 * 0.03 * 0.04, 1e-6);
+  // of a class of defaults
+  const JointAxis& rail = joint("rail").axes[0];
+  EXPECT_NEAR(rail.stiffness, 20, kText);
+  EXPECT_NEAR(rail.rest, 0.02, kText);
+  EXPECT_NEAR(*rail.lower, -0.3, kText);
+}
+
+TEST_F(Import, SeveralJointsOfABodyBecomeOne) {
+  import(kFixtures + "mjcf/toys.xml");
+  const Joint& mast = joint("roll");
+  ASSERT_EQ(mast.axes.size(), 2u);  // universal
+  EXPECT_NEAR(*mast.axes[0].lower, -pi / 6, kText);
+  EXPECT_NEAR(*mast.axes[0].upper, pi / 4, kText);
+  EXPECT_FALSE(mast.axes[1].lower);
+  EXPECT_THAT(said_, AllOf(HasSubstr("'puck' moves freely"), HasSubstr("the limits of a ball joint are left out"),
+                           HasSubstr("<actuator>"), HasSubstr("<sensor>"), HasSubstr("<keyframe>"),
+                           HasSubstr("<texture>"), HasSubstr("<camera>"), HasSubstr("<site>")));
+}
+
+// The whole runs: nothing explodes, and the ball lies on the ground in the end.
+TEST_F(Import, TheToysComeToRest) {
+  import(kFixtures + "mjcf/toys.xml");
+  RunOptions options;
+  options.duration = 4;
+  const auto run = test::runScene(scene_, {}, options);
+  const auto& bodies = run->result().final_state.bodies;
+  EXPECT_NEAR(bodies[indexOf("ball")].X_WB.p.z(), 0.05, 1e-3);
+  for (const auto& state : bodies) EXPECT_LT(state.v_WCm.norm(), 1) << "of a body that should be slow";
+}
+
+TEST_F(Import, MistakesAreFoundAtTheirPlaces) {
+  EXPECT_THAT(refusal("<scene/>"),
+              AllOf(HasSubstr("bad.xml:1:"), HasSubstr("error[E130]"), HasSubstr("neither URDF nor MJCF")));
+  EXPECT_THAT(refusal("<robot name=\"a\"><link>"), HasSubstr("error[E104]"));
+  EXPECT_THAT(refusal("<robot name=\"a\">\n<link name=\"b\"/>\n<joint name=\"j\" type=\"hinge\"><parent link=\"b\"/>"
+                      "<child link=\"c\"/></joint>\n</robot>"),
+              AllOf(HasSubstr("error[E131]"), HasSubstr("MuJoCo cannot read the model")));
+  EXPECT_THAT(refusal("<mujoco>\n<worldbody>\n<body>\n<freejoint/>\n<geom type=\"box\" size=\"1 "
+                      "1\"/>\n</body></worldbody></mujoco>"),
+              AllOf(HasSubstr("bad.xml:5:1"), HasSubstr("error[E131]")));
+  EXPECT_THAT(
+      refusal("<robot name=\"a\"><link name=\"b\"><visual><geometry>\n<mesh filename=\"no.stl\"/></geometry></visual>"
+              "</link></robot>"),
+      AllOf(HasSubstr("bad.xml:2:"), HasSubstr("error[E132]"), HasSubstr("no.stl")));
+  EXPECT_THAT(refusal("<robot name=\"a\"><link name=\"b\"><visual><geometry>"
+                      "<mesh filename=\"package://other/no.stl\"/></geometry></visual></link></robot>"),
+              AllOf(HasSubstr("error[E132]"), HasSubstr("no folder 'other'")));
+  EXPECT_THAT(refusal("<mujoco><worldbody><body name=\"b\"><joint type=\"hinge\"/><joint type=\"hinge\" pos=\"1 0 0\"/>"
+                      "<geom size=\"1\"/></body></worldbody></mujoco>"),
+              AllOf(HasSubstr("error[E133]"), HasSubstr("body 'b' has 2 joints")));
+  EXPECT_THAT(refusal("<mujoco><include file=\"/etc/hostname\"/></mujoco>"), HasSubstr("error["));
+}
+
+TEST_F(Import, NothingIsReplacedUnasked) {
+  import(kFixtures + "gripper/urdf/pendulum.urdf");
+  checkTarget(wanted_, found_);
+  EXPECT_THAT(found_.text(), HasSubstr("error[E129]"));
+  found_ = {};
+  wanted_.overwrite = true;
+  checkTarget(wanted_, found_);
+  EXPECT_FALSE(found_.hasErrors());
+}
+
+}  // namespace
+}  // namespace presa::robot
