@@ -5,8 +5,8 @@
 
 namespace presa {
 
-/// What commands have asked the surfaces to be: of each open parameter (openSurfaces) the last value, none before the first. Whole
-/// state, so that a reader who misses one sees the next. Only where a run takes commands.
+/// What commands have asked the surfaces to be: of each open parameter (openSurfaces) the last value, none before the
+/// first. Whole state, so that a reader who misses one sees the next. Only where a run takes commands.
 struct SurfaceSettings {
   static constexpr std::size_t kCapacity = 96;
   struct Slot {

@@ -72,8 +72,8 @@ class Element {
   void setAttribute(const std::string& attribute, const std::string& value, const SourceLocation& origin);
   void removeAttribute(const std::string& attribute);
   Element addChild(const std::string& name, const SourceLocation& origin);
-  /// Copies of an element of any document with all that is in it, which keep their locations: the last child, or in front
-  /// of this element.
+  /// Copies of an element of any document with all that is in it, which keep their locations: the last child, or in
+  /// front of this element.
   Element addCopy(const Element& of);
   Element insertCopy(const Element& of);
   /// Takes the element out of its document; no handle to it is valid any more.
