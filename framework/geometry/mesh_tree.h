@@ -51,7 +51,7 @@ class MeshTree {
 
   const TriMesh& mesh() const noexcept { return *mesh_; }  ///< the mesh that it was made of
   static constexpr std::int32_t kRoot = 0;                 ///< node of the whole mesh
-  /// I < nodeCount(), unchecked.
+  /// Node i < nodeCount(), unchecked.
   const Node& node(std::int32_t i) const noexcept { return nodes_[static_cast<std::size_t>(i)]; }
   std::size_t nodeCount() const noexcept { return nodes_.size(); }  ///< inner nodes and leaves
   const Facet& facet(std::int32_t i) const noexcept { return facets_[static_cast<std::size_t>(i)]; }  ///< unchecked
