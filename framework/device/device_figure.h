@@ -78,5 +78,6 @@ std::unique_ptr<DeviceFigure> figureOf(const DeviceBinding& binding);
 
 }  // namespace presa
 
+/// Exports `table`, a FigurePlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_DEVICE_FIGURE(table) \
   extern "C" __attribute__((visibility("default"))) const presa::FigurePlugin* presaDeviceFigure() { return &(table); }

@@ -67,5 +67,6 @@ const DevicePlugin& devicePlugin(const std::string& driver);
 
 }  // namespace presa
 
+/// Exports `table`, a DevicePlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_DEVICE_PLUGIN(table) \
   extern "C" __attribute__((visibility("default"))) const presa::DevicePlugin* presaDevicePlugin() { return &(table); }

@@ -13,7 +13,7 @@ struct PreparedTriangle {
   /// Below this sine of the angle at a corner, rounding may put a point into the wrong region.
   static constexpr double kSliverSine = 1e-4;
 
-  PreparedTriangle() = default;
+  PreparedTriangle() = default;  ///< the point 0, a sliver
   /// Corners in any unit; either orientation.
   PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c)
       : a(corner_a),
@@ -41,7 +41,7 @@ struct PreparedTriangle {
 };
 
 namespace detail {
-// Minimum over the three edges and the face: correct for every shape, and slower than the region test.
+/// Minimum over the three edges and the face: correct for every shape, and slower than the region test.
 Vec3 closestOnSliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace detail
 

@@ -66,6 +66,7 @@ struct BodyEffectPlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a BodyEffectPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_BODY_EFFECT_PLUGIN(table)                                                                      \
   extern "C" __attribute__((visibility("default"))) const presa::BodyEffectPlugin* presaBodyEffectPlugin() { \
     return &(table);                                                                                         \

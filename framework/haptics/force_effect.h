@@ -52,6 +52,7 @@ struct ForceEffectPlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a ForceEffectPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_FORCE_EFFECT_PLUGIN(table)                                                                       \
   extern "C" __attribute__((visibility("default"))) const presa::ForceEffectPlugin* presaForceEffectPlugin() { \
     return &(table);                                                                                           \

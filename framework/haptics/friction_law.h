@@ -82,6 +82,7 @@ inline constexpr const char* kDefaultFrictionLaw = "friction_cone";  ///< plug-i
 
 }  // namespace presa
 
+/// Exports `table`, a FrictionLawPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_FRICTION_LAW_PLUGIN(table)                                                                       \
   extern "C" __attribute__((visibility("default"))) const presa::FrictionLawPlugin* presaFrictionLawPlugin() { \
     return &(table);                                                                                           \

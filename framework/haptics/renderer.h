@@ -50,7 +50,7 @@ struct ProxyContact {
   Vec3 nhat = Vec3::UnitZ();                    ///< direction of the frictionless force, body into tool
   double depth = 0;                             ///< (x - g) . nhat [m]
   Vec3 tangential_displacement = Vec3::Zero();  ///< x - g without its normal part [m]
-  std::int32_t body = kNoBody;                  ///< body that bears the largest share; kNoBody: no contact
+  std::int32_t body = kNoBody;                  ///< of several the one that holds most; kNoBody: no contact
   ActiveSet active;                             ///< of the frictionless proxy; empty: `body` bears all
   bool swept = true;  ///< state.x came here along the path that Surroundings::leaveTrail got, which Presa then checks
   bool crossed = false;  ///< not swept: the renderer itself knows that the tool went through a surface
@@ -123,6 +123,7 @@ struct RendererPlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a RendererPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_RENDERER_PLUGIN(table)                                                                     \
   extern "C" __attribute__((visibility("default"))) const presa::RendererPlugin* presaRendererPlugin() { \
     return &(table);                                                                                     \

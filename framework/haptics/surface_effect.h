@@ -66,6 +66,7 @@ struct SurfaceEffectPlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a SurfaceEffectPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_SURFACE_EFFECT_PLUGIN(table)                                                                         \
   extern "C" __attribute__((visibility("default"))) const presa::SurfaceEffectPlugin* presaSurfaceEffectPlugin() { \
     return &(table);                                                                                               \

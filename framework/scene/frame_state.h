@@ -35,7 +35,7 @@ struct FrameState {
   double time = 0;               ///< [s]
   std::vector<FrameNow> frames;  ///< in the order of Rig::frames
 
-  FrameState() = default;
+  FrameState() = default;                                    ///< of no frame
   explicit FrameState(std::size_t count) : frames(count) {}  ///< frames of the rig
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return frames.capacity() * sizeof(FrameNow); }

@@ -162,13 +162,17 @@ struct CollisionSettings {
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  /// kHapticRate: soft, and at the haptic rate for bodies that fingers hold, up to `max_held` together.
+  /// kSoft: fingers are implicit spring-dampers in the solver; kExplicit: their force acts for one step; kAveraged: the
+  /// mean force since the step before acts for one step; kHapticRate: soft, and at the haptic rate for bodies that
+  /// fingers hold, up to `max_held` together.
   enum class Coupling { kSoft, kExplicit, kAveraged, kHapticRate };
-  /// kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own (modules/dynamics_ode).
+  /// kAuto: chosen for each island; kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own
+  /// (modules/dynamics_ode).
   enum class Solver { kAuto, kDirect, kIterative, kNewton, kSmallSteps };
   /// Between bodies: Coulomb's cone, or the engine's own pyramid, too strong between its axes.
   enum class Friction { kIsotropic, kPyramid };
-  /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
+  /// kExact: Presa's own; kEngine: the engine's; kNone: no gyroscopic term; kMatrix: R (I + S(w) dt),
+  /// re-orthonormalised; kEuler: one Euler step of Euler's equations.
   enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };
   std::string engine = kDefaultEngine;       ///< name of a plug-in's manifest
   Coupling coupling = Coupling::kSoft;       ///< of fingers with bodies

@@ -22,5 +22,6 @@ struct ModulePlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a ModulePlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_MODULE_PLUGIN(table) \
   extern "C" __attribute__((visibility("default"))) const presa::ModulePlugin* presaModulePlugin() { return &(table); }

@@ -51,6 +51,7 @@ struct ViewPartPlugin {
 
 }  // namespace presa
 
+/// Exports `table`, a ViewPartPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_VIEW_PART_PLUGIN(table)                                                                    \
   extern "C" __attribute__((visibility("default"))) const presa::ViewPartPlugin* presaViewPartPlugin() { \
     return &(table);                                                                                     \

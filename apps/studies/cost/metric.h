@@ -36,6 +36,7 @@ inline constexpr double kMinForce = 0.5;
 
 }  // namespace presa::cost
 
+/// Exports `table`, a MetricPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_METRIC_PLUGIN(table)                                                                         \
   extern "C" __attribute__((visibility("default"))) const presa::cost::MetricPlugin* presaMetricPlugin() { \
     return &(table);                                                                                       \

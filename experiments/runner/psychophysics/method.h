@@ -69,7 +69,7 @@ class Method {
   virtual Response responseFor(bool positive) const { return {.positive = positive}; }
 
  protected:
-  Method() = default;
+  Method() = default;                          ///< finished until start()
   Method(const Method&) = default;             ///< for derived classes alone
   Method(Method&&) = default;                  ///< for derived classes alone
   Method& operator=(const Method&) = default;  ///< for derived classes alone

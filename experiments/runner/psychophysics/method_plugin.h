@@ -26,6 +26,7 @@ struct MethodPlugin {
 
 }  // namespace presa::psychophysics
 
+/// Exports `table`, a MethodPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_METHOD_PLUGIN(table)                                                                                  \
   extern "C" __attribute__((visibility("default"))) const presa::psychophysics::MethodPlugin* presaMethodPlugin() { \
     return &(table);                                                                                                \

@@ -10,7 +10,7 @@ namespace presa {
 template <class T>
 class BoundedList {
  public:
-  BoundedList() = default;
+  BoundedList() = default;                                          ///< room for no item
   explicit BoundedList(std::size_t capacity) : items_(capacity) {}  ///< allocates the room for `capacity` items
   BoundedList(const BoundedList& other) { *this = other; }          ///< with the capacity of `other`: allocates
   /// Nonblocking while the capacities agree; else it takes that of `other`.

@@ -33,7 +33,7 @@ concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
 template <ExchangedData T>
 class LatestValue {
  public:
-  LatestValue() = default;
+  LatestValue() = default;  ///< of default values T
   /// Before either thread uses it; `sized` has the size of the values that publish() will get.
   explicit LatestValue(const T& sized) {
     for (Slot& slot : slots_) slot.value = sized;

@@ -33,7 +33,7 @@ using ScheduleInputs = std::array<std::vector<std::string>, kScheduledGroupCount
 struct ScheduleLog {
   ScheduleInputs inputs;  ///< Graph::scheduleInputs; set before a recorder is attached
   std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;  ///< by RateGroup; drop when full
-  ScheduleLog();
+  ScheduleLog();                                                                    ///< allocates the rings
 };
 
 }  // namespace presa

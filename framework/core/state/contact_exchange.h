@@ -83,7 +83,7 @@ struct ContactExchange {
   std::vector<FingerContact> fingers;  ///< in the order of the scene's roles
   BoundedList<ToolContact> contacts;   ///< of all fingers, those of one finger in a row
 
-  ContactExchange() = default;
+  ContactExchange() = default;  ///< of no finger
   /// Allocates for `finger_count` fingers and their contacts.
   explicit ContactExchange(std::size_t finger_count, std::size_t contacts_per_finger = 1)
       : pop_through_by_finger(finger_count),

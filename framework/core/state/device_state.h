@@ -29,7 +29,7 @@ struct DeviceState {
   std::uint32_t rearms = 0;          ///< number of re-arms since the start; each one clears latched faults
   std::vector<FingerInput> fingers;  ///< in the order of the scene's roles
 
-  DeviceState() = default;
+  DeviceState() = default;                                                   ///< of no finger
   explicit DeviceState(std::size_t finger_count) : fingers(finger_count) {}  ///< as many as the scene has roles
   std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }  ///< fingers
   /// Heap memory that it owns [bytes] (SizedAtLoad).
@@ -44,7 +44,7 @@ struct ForceCommand {
   std::vector<Vec3> f_H_W;   ///< force that each device holds from this tick on [N]
   std::vector<Vec3> t_H_W;   ///< torque about H that it holds [N m]
 
-  ForceCommand() = default;
+  ForceCommand() = default;  ///< to no finger
   /// Zero force and torque on each finger.
   explicit ForceCommand(std::size_t finger_count)
       : f_H_W(finger_count, Vec3::Zero()), t_H_W(finger_count, Vec3::Zero()) {}

@@ -38,7 +38,7 @@ struct FingerNeighbourhoods {
   std::int32_t count = 0;                    ///< fingers in use, 0 <= count <= fingers.size()
   std::vector<FingerNeighbourhood> fingers;  ///< in the order of the scene's devices
 
-  FingerNeighbourhoods() = default;
+  FingerNeighbourhoods() = default;                                           ///< of no finger
   FingerNeighbourhoods(const FingerNeighbourhoods& other) { *this = other; }  ///< as by assignment
   /// Copies only the fingers in use, and only neighbourhoods whose serial differs. Allocates only when the lengths
   /// differ.

@@ -25,7 +25,7 @@ class SharedMemory {
   /// Maps the memory in the other process.
   static SharedMemory joined(int fd) { return SharedMemory(fd); }
 
-  SharedMemory() = default;
+  SharedMemory() = default;  ///< empty
   /// `other` is empty afterwards.
   SharedMemory(SharedMemory&& other) noexcept
       : fd_(std::exchange(other.fd_, -1)), mapped_(std::exchange(other.mapped_, nullptr)) {}
