@@ -15,8 +15,9 @@ namespace presa {
 
 /// A property of a model that belongs in the data of a run, such as a trait of a simulated subject.
 struct DeviceFact {
-  std::string name, unit;
-  double value = 0;
+  std::string name,     ///< of the property: "motor_heat"
+      unit;             ///< SI unit such as "N"; "1": none
+  double value = 0;     ///< in `unit`
   bool of_run = false;  ///< drawn anew for each run; false: the same for the same seed and subject
 };
 
@@ -29,7 +30,7 @@ class Device {
   virtual ~Device() = default;
   /// Makes the device ready. Throws InputError with the exact reason when this fails.
   virtual void open() {}
-  virtual void close() noexcept {}
+  virtual void close() noexcept {}  ///< releases it; without effect when it is not open
 
   /// The sample for this tick; `valid` is false when there is none. A simulated finger advances to tick.time under the
   /// force of the last write: after a stall, ticks are skipped, or come without a write between them.
@@ -47,6 +48,7 @@ class Device {
 
   /// True for a simulated hand that needs the bodies' poses; it gets them in see(), before read. False for hardware.
   virtual bool looks() const { return false; }
+  /// Poses of this tick; only if looks().
   virtual void see(const ObjectState& /*objects*/, const Tick& /*tick*/) noexcept {}
 
   /// True if its samples are `oriented`. Constant.
@@ -57,6 +59,7 @@ class Device {
 
   /// True for a finger moved with the mouse; it gets the pointer's state in point(), before read. False for hardware.
   virtual bool points() const { return false; }
+  /// State of this tick; only if points().
   virtual void point(const PointerState& /*pointer*/, const Tick& /*tick*/) noexcept {}
 
   /// Name of the model that moves the finger, shown with all results: "simulated subject, level L1: a model, not a

@@ -16,15 +16,15 @@ namespace presa {
 struct FigureShape {
   Shape shape;                          ///< no Compound
   std::shared_ptr<const TriMesh> mesh;  ///< of a MeshRef; edges are sharp beyond 40 degrees
-  Pose X_PG;
-  Vec3 color = Vec3::Constant(0.5);  ///< linear RGB
-  int motor = -1;                    ///< its colour shows the heat of this motor; -1: of none
+  Pose X_PG;                            ///< pose of the shape in P
+  Vec3 color = Vec3::Constant(0.5);     ///< linear RGB
+  int motor = -1;                       ///< its colour shows the heat of this motor; -1: of none
 };
 
 /// Shapes that move together.
 struct FigurePart {
-  std::string name;
-  std::vector<FigureShape> shapes;
+  std::string name;                 ///< its node in the view's scene graph is called "ROLE NAME"
+  std::vector<FigureShape> shapes;  ///< all of one pose
 };
 
 /// All that a figure is drawn from; a recording has the same.
@@ -38,9 +38,10 @@ struct FigureMoment {
 
 /// Deflection of a device's structure under the force that it holds.
 struct FigureDeflection {
-  Vec3 d_F = Vec3::Zero();       ///< from the tip that the encoders report to the true one [m]
-  double along = 0, across = 0;  ///< the same along and across the structure [m]
-  std::vector<Vec3> line_F;      ///< centre line from the ground to the tip, with the deflection enlarged [m]
+  Vec3 d_F = Vec3::Zero();   ///< from the tip that the encoders report to the true one [m]
+  double along = 0,          ///< part of d_F along the structure [m]
+      across = 0;            ///< part of d_F across the structure [m]
+  std::vector<Vec3> line_F;  ///< centre line from the ground to the tip, with the deflection enlarged [m]
 };
 
 /// The figure of one device. Thread: view (60 Hz), except for construction; may allocate, nothing waits for it.
@@ -63,17 +64,20 @@ class DeviceFigure {
   virtual std::optional<std::vector<double>> heat() const { return std::nullopt; }
 };
 
+/// Table of a figure, which a driver exports with PRESA_DEVICE_FIGURE.
 struct FigurePlugin {
-  int abi = kPluginAbi;
+  int abi = kPluginAbi;  ///< leave it as it is: another version is refused (E510)
   /// Null when the settings do not say where the device stands; the driver has reported why.
   std::unique_ptr<DeviceFigure> (*create)(const DeviceBinding& binding) = nullptr;
 };
-inline constexpr const char* kFigureSymbol = "presaDeviceFigure";
+inline constexpr const char* kFigureSymbol = "presaDeviceFigure";  ///< returns the FigurePlugin
 
-/// The figure of this device; null where its driver has none, which is then not loaded. Throws InputError as pluginTable.
+/// The figure of this device; null where its driver has none, which is then not loaded. Throws InputError as
+/// pluginTable.
 std::unique_ptr<DeviceFigure> figureOf(const DeviceBinding& binding);
 
 }  // namespace presa
 
+/// Exports `table`, a FigurePlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_DEVICE_FIGURE(table) \
   extern "C" __attribute__((visibility("default"))) const presa::FigurePlugin* presaDeviceFigure() { return &(table); }

@@ -19,15 +19,15 @@ namespace presa {
 
 /// A fault of the output stage during a run. A ring carries it to the main thread.
 struct FaultEvent {
-  double time = 0;  ///< [s]
-  std::int32_t finger = -1;
+  double time = 0;           ///< [s]
+  std::int32_t finger = -1;  ///< index into the scene's roles
   std::uint32_t status = 0;  ///< the OutputStatus bits that were newly set
 };
 
 /// First module of the haptic group: reads every device, checks each sample (SampleCheck) and writes the Device State.
 class DeviceInput final : public Module {
  public:
-  DeviceInput(DeviceList& devices, const RunControl& control);
+  DeviceInput(DeviceList& devices, const RunControl& control);  ///< keeps references to both
   void step(const Tick& tick) noexcept override;
   std::vector<std::string> stages() const override;
 

@@ -16,17 +16,19 @@ namespace presa {
 
 /// One result of DevicePlugin::diagnose about a device or the computer; good results are reported, too.
 struct DeviceFinding {
+  /// How bad it is: nothing to do, something to know, or no use of the device until it is solved.
   enum class Verdict : std::uint8_t { kFine, kWarning, kProblem };
-  Verdict verdict = Verdict::kFine;
-  int code = 0;         ///< as in Diagnostic; 0: none
-  std::string device;   ///< the device's serial number or port; empty: the computer, or the rig
-  std::string message;  ///< one line
-  std::string help;     ///< what to do; may be empty
+  Verdict verdict = Verdict::kFine;  ///< kFine: good, reported all the same
+  int code = 0;                      ///< as in Diagnostic; 0: none
+  std::string device;                ///< the device's serial number or port; empty: the computer, or the rig
+  std::string message;               ///< one line
+  std::string help;                  ///< what to do; may be empty
 };
 
+/// Table of a driver, which it exports with PRESA_DEVICE_PLUGIN.
 struct DevicePlugin {
-  int abi = kPluginAbi;
-  const char* name;  ///< of its manifest, which lists its settings
+  int abi = kPluginAbi;  ///< leave it as it is: another version is refused (E510)
+  const char* name;      ///< of its manifest, which lists its settings
   /// Creates a device for each binding, in their order, without touching hardware. Checks their settings (all findings
   /// to `diagnostics`); null for a binding that has an error. createEach<make> is for a driver whose devices do not
   /// know each other. Thread: main.
@@ -65,5 +67,6 @@ const DevicePlugin& devicePlugin(const std::string& driver);
 
 }  // namespace presa
 
+/// Exports `table`, a DevicePlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_DEVICE_PLUGIN(table) \
   extern "C" __attribute__((visibility("default"))) const presa::DevicePlugin* presaDevicePlugin() { return &(table); }

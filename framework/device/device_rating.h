@@ -19,12 +19,13 @@ struct DeviceRating {
   double angular_speed = 20;  ///< no torque may push a hand that turns faster [rad/s]
   double soft_start = 0.5;    ///< shortest time from zero to the full force [s]
   double watchdog = 0.1;      ///< oldest Object State that a force may be computed from [s]: two periods at 20 Hz
+  /// What produces the force.
   enum class Behind : std::uint8_t {
     kMotors,   ///< real motors, which may hold a hand
     kModel,    ///< a model of motors: same limits, unless a study records their overload
     kNothing,  ///< no motors: the finger is simulated
   };
-  Behind behind = Behind::kMotors;
+  Behind behind = Behind::kMotors;  ///< kMotors unless the driver is a simulation
 
   /// Longest time that the slew limit may take from any force to zero [s]. A supervisor holds a dead program's last
   /// command for 5 ms; with 2 ms for delays and one cycle, the force is zero within 20 ms of any failure.

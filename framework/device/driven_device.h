@@ -14,8 +14,10 @@ class DrivenDevice final : public WrappedDevice {
  public:
   /// Slew limits of the device [N/s], [N m/s].
   struct Slew {
-    double force, torque;
+    double force,  ///< [N/s]
+        torque;    ///< [N m/s]
   };
+  /// `role`: index into the scene's roles.
   DrivenDevice(std::unique_ptr<Device> device, std::shared_ptr<FrameTree> tree, std::size_t role, Slew slew)
       : WrappedDevice(std::move(device)), tree_(std::move(tree)), role_(role), slew_(slew) {}
 

@@ -14,19 +14,21 @@ namespace presa {
 /// X_FU walks and flies, the offset c follows the clutch, s is the zoom, about the hand, which stays where it is.
 ///
 /// Nothing of it moves while a finger in the frame feels a force. A step is known to be free one tick later: if a force
-/// answers it, this force is withheld from the hands (changed()), the step is taken back, and the frame rests for kPause.
-/// So X_FU, c and s are constant under every force that a hand gets, and the motion of a frame does no work on it.
+/// answers it, this force is withheld from the hands (changed()), the step is taken back, and the frame rests for
+/// kPause. So X_FU, c and s are constant under every force that a hand gets, and the motion of a frame does no work on
+/// it.
 /// Thread: haptic; nonblocking.
 class FrameDrive {
  public:
   static constexpr double kStart = 0.2;  ///< from rest to full speed [s]
   static constexpr double kPause = 0.2;  ///< rest after a step that met a body [s]
 
-  explicit FrameDrive(const Frame& frame);
+  explicit FrameDrive(const Frame& frame);  ///< at rest, where the rig has it
 
   /// Middle of the fingers in the frame, as their devices measure them.
   struct Hand {
-    Vec3 p = Vec3::Zero(), v = Vec3::Zero();
+    Vec3 p = Vec3::Zero(),  ///< position in the frame [m]
+        v = Vec3::Zero();   ///< velocity in the frame [m/s]
   };
   /// What the last wrenches said.
   struct Touch {

@@ -3,10 +3,11 @@
 
 namespace presa {
 
-/// Where a frame F is in a frame W, and how it moves: p_W = X_WF.p + scale R_WF p_F. Angles are the same in both, lengths
-/// are not; the power of a wrench is the same if its force is scaled as lengths are: f_F = scale R_FW f_W, t_F = R_FW t_W.
+/// Where a frame F is in a frame W, and how it moves: p_W = X_WF.p + scale R_WF p_F. Angles are the same in both,
+/// lengths are not; the power of a wrench is the same if its force is scaled as lengths are: f_F = scale R_FW f_W, t_F
+/// = R_FW t_W.
 struct FrameMotion {
-  Pose X_WF;
+  Pose X_WF;                 ///< of the origin of F, and of its axes
   Vec3 v_WF = Vec3::Zero();  ///< of its origin [m/s]
   Vec3 w_WF = Vec3::Zero();  ///< [rad/s]
   double scale = 1;          ///< metres of W for one of F

@@ -14,12 +14,13 @@
 
 namespace presa {
 
-/// The frames of a rig (figure 8 of the PERCRO paper: user, head, device): fixed, moved through keys, moved by their user
-/// (FrameDrive), or carried by the tool of a role. A frame on a tool follows the newest sample of that tool (ToolWatch).
+/// The frames of a rig (figure 8 of the PERCRO paper: user, head, device): fixed, moved through keys, moved by their
+/// user (FrameDrive), or carried by the tool of a role. A frame on a tool follows the newest sample of that tool
+/// (ToolWatch).
 /// Thread: haptic, except for construction; nonblocking.
 class FrameTree {
  public:
-  static constexpr int kWorld = -1;
+  static constexpr int kWorld = -1;  ///< index of W
 
   /// `roles`: those of the scene. The rig is checked.
   FrameTree(const Rig& rig, const std::vector<DeviceRole>& roles);
@@ -56,8 +57,8 @@ class FrameTree {
 
   /// The frames of the rig now, in its order; `state` is sized for them.
   void tell(double time, FrameState& state) const noexcept;
-  std::size_t frames() const noexcept { return nodes_.size(); }
-  std::size_t roles() const noexcept { return roles_.size(); }
+  std::size_t frames() const noexcept { return nodes_.size(); }  ///< number of frames of the rig
+  std::size_t roles() const noexcept { return roles_.size(); }   ///< number of roles of the scene
 
  private:
   /// A device in a driven frame.
@@ -103,8 +104,10 @@ class FrameTree {
 /// Smallest and largest scale, to the world, of the frames that the device of a role stands in; each at most and at
 /// least 1.
 struct ZoomRange {
-  double min = 1, max = 1;
+  double min = 1,  ///< at most 1 [-]
+      max = 1;     ///< at least 1 [-]
 };
+/// 1 to 1 for a role that stands in no frame with a zoom, or is not in the rig.
 ZoomRange zoomRange(const Rig& rig, const std::string& role);
 
 }  // namespace presa

@@ -16,6 +16,7 @@ namespace presa {
 /// in runs whose rig has frames.
 class FrameWatch final : public Module {
  public:
+  /// `tree`: shared with the devices in its frames.
   explicit FrameWatch(std::shared_ptr<FrameTree> tree)
       : Module("frame_watch", RateGroup::kHaptic),
         tree_(std::move(tree)),

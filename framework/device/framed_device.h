@@ -7,8 +7,8 @@
 
 namespace presa {
 
-/// A device that stands in a frame of the rig, or whose tool carries one: samples go from the frame to the world, forces
-/// back, with the same power (FrameMotion). Around no other device: without frames nothing is in the tick.
+/// A device that stands in a frame of the rig, or whose tool carries one: samples go from the frame to the world,
+/// forces back, with the same power (FrameMotion). Around no other device: without frames nothing is in the tick.
 class FramedDevice final : public WrappedDevice {
  public:
   /// `frame`: index in the tree.

@@ -29,7 +29,7 @@ struct OutputLimits {
 
 /// Limits of one finger's output stage, and the age from which it no longer trusts the dynamics.
 struct FingerSafety {
-  OutputLimits limits;
+  OutputLimits limits;             ///< for its OutputStage
   double watchdog = ages::kFloor;  ///< age of the Object State at which the force fades [s]
 };
 

@@ -39,16 +39,16 @@ inline const char* latchedFault(std::uint32_t status) noexcept {
   return nullptr;
 }
 
-/// The last stage between the graph and the device of one tool. Force and torque pass the same steps, each with limits of
-/// its own:
+/// The last stage between the graph and the device of one tool. Force and torque pass the same steps, each with limits
+/// of its own:
 ///     finite -> magnitude -> energy -> thermal -> fade -> slew
 /// For any command, the force sent is finite and at most `force`, changes by at most force_rate * period from one tick
-/// to the next, likewise the torque, and both go to zero after a latched fault, where they stay until a re-arm. The slew limit comes last, so
-/// that no other stage can cause a step. Always present; no scene can leave it out.
+/// to the next, likewise the torque, and both go to zero after a latched fault, where they stay until a re-arm. The
+/// slew limit comes last, so that no other stage can cause a step. Always present; no scene can leave it out.
 /// Thread: haptic; nonblocking.
 class OutputStage {
  public:
-  explicit OutputStage(const OutputLimits& limits);
+  explicit OutputStage(const OutputLimits& limits);  ///< starts at zero force, with a soft start
 
   /// How far the data behind the command can be trusted.
   enum class Trust : std::uint8_t {
@@ -56,9 +56,10 @@ class OutputStage {
     kFading,   ///< a little old: to zero within fade_out
     kDropped,  ///< too old, or no sample: to zero at the slew limit; returns softly (short gap: at that limit)
   };
+  /// All that one step depends on.
   struct Input {
-    Wrench command = {};  ///< wanted wrench on the tool, in W
-    Trust trust = Trust::kGood;
+    Wrench command = {};           ///< wanted wrench on the tool, in W
+    Trust trust = Trust::kGood;    ///< of the data behind `command`
     bool stop = false;             ///< the run is ending: the force fades
     bool catch_up = false;         ///< catch-up tick, nothing is sent: the fade goes on, the force stays
     bool lost = false;             ///< the device is disconnected or its samples are implausible
@@ -75,9 +76,9 @@ class OutputStage {
   /// Clears every latched fault; the force comes back from zero with a soft start. A persisting cause latches again.
   void rearm() noexcept;
 
-  std::uint32_t status() const noexcept { return status_; }
-  const Wrench& last() const noexcept { return last_; }
-  bool latched() const noexcept { return latches_ != 0; }
+  std::uint32_t status() const noexcept { return status_; }  ///< OutputStatus bits of the last step
+  const Wrench& last() const noexcept { return last_; }      ///< wrench of the last step, in W
+  bool latched() const noexcept { return latches_ != 0; }    ///< a latched fault holds the force at zero
   /// Late samples are common: after a gap of at most this length the force comes back without a soft start [s].
   static constexpr double kShortGap = 3e-3;
 

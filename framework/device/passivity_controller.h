@@ -30,8 +30,8 @@ class PassivityController {
   /// The force that the later stages really sent [N]; call after every step().
   void sent(const Vec3& force) noexcept { sent_ = force; }
 
-  double given() const noexcept { return given_; }  ///< net energy to the finger so far [J]
-  bool acting() const noexcept { return damping_ > 0; }
+  double given() const noexcept { return given_; }       ///< net energy to the finger so far [J]
+  bool acting() const noexcept { return damping_ > 0; }  ///< the last step added damping
 
   static constexpr double kMaxDamping = 20;        ///< of a fingertip [N s/m]
   static constexpr double kMaxTurnDamping = 0.05;  ///< of a tool that turns [N m s/rad]: 20 N s/m at an arm of 5 cm

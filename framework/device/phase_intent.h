@@ -26,7 +26,8 @@ inline std::optional<PhaseIntent> phaseIntentOf(std::string_view name) noexcept 
 
 /// A phase, or several in a row that have one intent.
 struct PhaseSpan {
-  double begin = 0, end = 0;  ///< [s]
+  double begin = 0,  ///< [s]
+      end = 0;       ///< [s]
 };
 
 /// The first phase with this intent, with those of the same intent that follow it directly; none if there is none.

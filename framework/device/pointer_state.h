@@ -10,14 +10,14 @@ struct FrameWish {
   Vec3 walk = Vec3::Zero();  ///< share of the speed along the frame's axes: x ahead, y to the left, z up; -1 to 1
   double turn = 0;           ///< share of the rate about z; -1 to 1
   double zoom = 0;           ///< 1: to the larger scale, -1: to the smaller
-  bool clutch = false;
+  bool clutch = false;       ///< held: the frame slides back under the hand
 };
 
 /// Name of the port that carries a PointerState.
 inline constexpr const char* kPointerPort = "pointer_state";
 
-/// Pose that the user at the window wants for a pair of fingertips, or for a stylus. Each value is complete: a reader may miss some.
-/// Written by: view thread.
+/// Pose that the user at the window wants for a pair of fingertips, or for a stylus. Each value is complete: a reader
+/// may miss some. Written by: view thread.
 struct PointerState {
   std::uint64_t sequence = 0;  ///< grows with every change; 0: no input yet
   Vec3 p_WT = Vec3::Zero();    ///< midpoint between the fingertips' centres; tip of a stylus [m]

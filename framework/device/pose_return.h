@@ -13,12 +13,13 @@ class PoseReturn {
  public:
   static constexpr double kTime = 0.8;  ///< [s]
 
+  /// Starts at `time` [s] from the pose shown, towards `measured`.
   void begin(const Pose& shown, const Pose& measured, double time) noexcept {
     d_ = shown.p - measured.p;
     turn_ = Eigen::AngleAxisd(shortest(shown.q * measured.q.conjugate()));
     begin_ = time;
   }
-  bool over(double time) const noexcept { return time - begin_ >= kTime; }
+  bool over(double time) const noexcept { return time - begin_ >= kTime; }  ///< from then on the measured pose is shown
   /// What is shown at `time`, with its velocities; `measured` itself once it is over.
   FrameMotion at(const FrameMotion& measured, double time) const noexcept {
     if (over(time)) return measured;

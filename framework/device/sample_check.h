@@ -37,7 +37,7 @@ class SampleCheck {
     input.valid = input.valid && !latched_;
     return input;
   }
-  bool latched() const noexcept { return latched_; }
+  bool latched() const noexcept { return latched_; }  ///< samples are rejected until rearm()
   /// Clears the latch and accepts the next finite position, wherever it is.
   void rearm() noexcept {
     latched_ = suspect_ = false;

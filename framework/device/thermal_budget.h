@@ -17,7 +17,7 @@ class ThermalBudget {
     const double load = force / continuous_;
     heat_ += -std::expm1(-period / heating_time_) * (load * load - heat_);
   }
-  double heat() const noexcept { return heat_; }
+  double heat() const noexcept { return heat_; }  ///< 1: that of `continuous` for unlimited time
   /// The largest force allowed now [N]: `peak` up to a heat of 0.9, then falling, `continuous` at a heat of 1.
   double maxForce(double peak) const noexcept {
     if (!(peak > continuous_)) return peak;

@@ -16,10 +16,10 @@ class ToolWatch {
   void update(const FrameMotion& measured, bool valid, double time) noexcept;
   /// For pictures: there it is.
   void put(const FrameMotion& motion) noexcept { motion_ = motion; }
-  const FrameMotion& motion() const noexcept { return motion_; }
+  const FrameMotion& motion() const noexcept { return motion_; }  ///< as shown now
   /// A sample has come. Before, nobody knows where it is.
   bool known() const noexcept { return known_; }
-  bool lost() const noexcept { return lost_; }
+  bool lost() const noexcept { return lost_; }  ///< stands still: no usable sample for longer than kLongest
   /// It was lost, and is on its way back.
   bool returns() const noexcept { return returns_; }
   /// How often it was lost so far.

@@ -8,7 +8,7 @@ namespace presa {
 /// Decorator base: forwards every call to the wrapped device; a subclass overrides the calls that it changes.
 class WrappedDevice : public Device {
  public:
-  explicit WrappedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}
+  explicit WrappedDevice(std::unique_ptr<Device> device) : device_(std::move(device)) {}  ///< owns `device`
 
   void open() override { device_->open(); }
   void close() noexcept override { device_->close(); }
@@ -32,8 +32,8 @@ class WrappedDevice : public Device {
   std::vector<std::string> notes() const override { return device_->notes(); }
 
  protected:
-  Device& inner() noexcept { return *device_; }
-  const Device& inner() const noexcept { return *device_; }
+  Device& inner() noexcept { return *device_; }              ///< the wrapped device
+  const Device& inner() const noexcept { return *device_; }  ///< the wrapped device
 
  private:
   std::unique_ptr<Device> device_;

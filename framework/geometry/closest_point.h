@@ -13,7 +13,8 @@ struct PreparedTriangle {
   /// Below this sine of the angle at a corner, rounding may put a point into the wrong region.
   static constexpr double kSliverSine = 1e-4;
 
-  PreparedTriangle() = default;
+  PreparedTriangle() = default;  ///< the point 0, a sliver
+  /// Corners in any unit; either orientation.
   PreparedTriangle(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c)
       : a(corner_a),
         b(corner_b),
@@ -28,14 +29,19 @@ struct PreparedTriangle {
     const double longest = std::max({ab_ab, ac_ac, (c - b).squaredNorm()});
     sliver = !(area > kSliverSine * kSliverSine * longest * longest);
   }
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
-  Vec3 ab = Vec3::Zero(), ac = Vec3::Zero();
-  double ab_ab = 0, ac_ac = 0, ab_ac = 0;
-  bool sliver = true;  ///< use closestOnSliver(): the region test is not reliable for this triangle
+  Vec3 a = Vec3::Zero(),   ///< corner
+      b = Vec3::Zero(),    ///< corner
+      c = Vec3::Zero();    ///< corner
+  Vec3 ab = Vec3::Zero(),  ///< b - a
+      ac = Vec3::Zero();   ///< c - a
+  double ab_ab = 0,        ///< ab . ab
+      ac_ac = 0,           ///< ac . ac
+      ab_ac = 0;           ///< ab . ac
+  bool sliver = true;      ///< use closestOnSliver(): the region test is not reliable for this triangle
 };
 
 namespace detail {
-// Minimum over the three edges and the face: correct for every shape, and slower than the region test.
+/// Minimum over the three edges and the face: correct for every shape, and slower than the region test.
 Vec3 closestOnSliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace detail
 

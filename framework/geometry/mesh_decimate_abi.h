@@ -13,6 +13,6 @@ using DecimateMeshFunction = std::uint64_t (*)(const std::uint32_t* indices, std
                                                std::uint64_t wanted_index_count, float max_error, std::uint32_t* out,
                                                float* error);
 
-inline constexpr const char* kMeshDecimateSymbol = "presaDecimateMesh";
+inline constexpr const char* kMeshDecimateSymbol = "presaDecimateMesh";  ///< a DecimateMeshFunction
 
 }  // namespace presa

@@ -14,9 +14,9 @@ namespace presa {
 /// A linear lower bound of a distance: for every point p, the distance of p from the bounded set is at least
 /// nhat . p + offset. The distance from a convex set is a convex function of p, so it lies above its tangent planes.
 struct TangentBound {
-  Vec3 nhat = Vec3::Zero();
-  double offset = 0;  ///< [m]
-  double at(const Vec3& p) const noexcept { return nhat.dot(p) + offset; }
+  Vec3 nhat = Vec3::Zero();  ///< unit; zero: `offset` alone, a bound of any point
+  double offset = 0;         ///< [m]
+  double at(const Vec3& p) const noexcept { return nhat.dot(p) + offset; }  ///< lower bound of the distance of p [m]
 };
 
 /// Immutable bounding-volume hierarchy over the triangles of one mesh. The bounding volume of a node is an oriented box
@@ -27,17 +27,19 @@ struct TangentBound {
 /// Throws std::invalid_argument when the mesh is empty or has a vertex that is not finite.
 class MeshTree {
  public:
-  static constexpr int kLeafTriangles = 6;
+  static constexpr int kLeafTriangles = 6;  ///< facets of a leaf at the most
 
   /// Single precision halves the memory. `half` is rounded up so that the box with rounded centre and axes encloses the
   /// node.
   struct Node {
-    std::array<float, 3> center{}, normal{0, 0, 1}, along{1, 0, 0};
-    std::array<float, 3> half{};  ///< half extents along normal, along, and normal x along [m]
-    std::int32_t first = 0;       ///< inner node: left child, the right child follows it; leaf: first facet
-    std::int32_t count = 0;       ///< number of facets of a leaf; 0: inner node
-    bool isLeaf() const noexcept { return count > 0; }
-    float size() const noexcept { return std::max({half[0], half[1], half[2]}); }
+    std::array<float, 3> center{},  ///< of the box [m]
+        normal{0, 0, 1},            ///< thin side of the box, unit
+        along{1, 0, 0};             ///< square to `normal`, unit
+    std::array<float, 3> half{};    ///< half extents along normal, along, and normal x along [m]
+    std::int32_t first = 0;         ///< inner node: left child, the right child follows it; leaf: first facet
+    std::int32_t count = 0;         ///< number of facets of a leaf; 0: inner node
+    bool isLeaf() const noexcept { return count > 0; }  ///< its facets are `first` to first + count - 1
+    float size() const noexcept { return std::max({half[0], half[1], half[2]}); }  ///< half of the longest edge [m]
   };
   /// A triangle, stored in the order of the leaves.
   struct Facet {
@@ -45,13 +47,15 @@ class MeshTree {
     std::int32_t id = -1;         ///< index of the triangle in mesh()
   };
 
-  explicit MeshTree(std::shared_ptr<const TriMesh> mesh);
+  explicit MeshTree(std::shared_ptr<const TriMesh> mesh);  ///< keeps `mesh`; throws as above
 
-  const TriMesh& mesh() const noexcept { return *mesh_; }
-  static constexpr std::int32_t kRoot = 0;
+  const TriMesh& mesh() const noexcept { return *mesh_; }  ///< the mesh that it was made of
+  static constexpr std::int32_t kRoot = 0;                 ///< node of the whole mesh
+  /// Node i < nodeCount(), unchecked.
   const Node& node(std::int32_t i) const noexcept { return nodes_[static_cast<std::size_t>(i)]; }
-  std::size_t nodeCount() const noexcept { return nodes_.size(); }
-  const Facet& facet(std::int32_t i) const noexcept { return facets_[static_cast<std::size_t>(i)]; }
+  std::size_t nodeCount() const noexcept { return nodes_.size(); }  ///< inner nodes and leaves
+  const Facet& facet(std::int32_t i) const noexcept { return facets_[static_cast<std::size_t>(i)]; }  ///< unchecked
+  /// Corner i (0 to 2) of a facet [m].
   const Vec3& corner(const Facet& facet, std::size_t i) const noexcept {
     return vertices_[static_cast<std::size_t>(facet.corners[i])];
   }
@@ -65,6 +69,7 @@ class MeshTree {
     axes.col(2) = axes.col(0).cross(axes.col(1));
     return axes;
   }
+  /// In mesh coordinates [m].
   static Vec3 centerOf(const Node& node) noexcept { return {node.center[0], node.center[1], node.center[2]}; }
 
   /// Tangent bound of a node's triangles at p; `distance` is its value there [m], 0 when p is inside the box.
@@ -92,7 +97,7 @@ class MeshTree {
 
   /// Bounding sphere of all vertices [m].
   const Vec3& sphereCenter() const noexcept { return sphere_center_; }
-  double sphereRadius() const noexcept { return sphere_radius_; }
+  double sphereRadius() const noexcept { return sphere_radius_; }  ///< about sphereCenter() [m]
 
  private:
   std::shared_ptr<const TriMesh> mesh_;

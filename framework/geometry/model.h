@@ -19,10 +19,11 @@ inline constexpr std::uint64_t kMaxTexels = 8ULL * kMaxTextureSide * kMaxTexture
 
 /// A compressed picture, PNG or JPEG: in a file of its own, or in the model's (then `bytes` holds it).
 struct ModelTexture {
-  std::string name;           ///< as the model calls it
-  std::string file;           ///< path; empty: embedded
-  std::string bytes;          ///< of an embedded one
-  int width = 0, height = 0;  ///< [pixel]
+  std::string name;   ///< as the model calls it
+  std::string file;   ///< path; empty: embedded
+  std::string bytes;  ///< of an embedded one
+  int width = 0,      ///< [pixel]
+      height = 0;     ///< [pixel]
 };
 
 /// A surface under light. Maps are indices into Model::textures; -1: none.
@@ -33,7 +34,7 @@ struct ModelMaterial {
   double relief = 1;          ///< factor of the normal map's slopes
   int color_map = -1;         ///< sRGB
   int normal_map = -1;        ///< normals in the tangent frame, or, when it is grey, heights
-  int roughness_map = -1;
+  int roughness_map = -1;     ///< its green channel: roughness; blue: metallic
 };
 
 /// Single precision: the graphics card's.
@@ -46,26 +47,31 @@ struct ModelVertex {
 
 /// A mesh file with what it says about colours, in the mesh's frame and unit (tri_mesh.h). Constant, any thread.
 struct Model {
-  std::vector<ModelVertex> vertices;
+  std::vector<ModelVertex> vertices;   ///< part by part
   std::vector<std::uint32_t> corners;  ///< three for each triangle, counter-clockwise seen from outside
   /// A range of vertices that only its own triangles use, of one material.
   struct Part {
-    std::uint32_t first_vertex = 0, vertex_count = 0, first_corner = 0, corner_count = 0;
-    ModelMaterial material;
+    std::uint32_t first_vertex = 0,  ///< index into `vertices`
+        vertex_count = 0,            ///< used by this part alone
+        first_corner = 0,            ///< index into `corners`
+        corner_count = 0;            ///< three for each triangle
+    ModelMaterial material;          ///< its maps are indices into `textures`
   };
-  std::vector<Part> parts;
-  std::vector<ModelTexture> textures;
-  std::string file;
-  std::size_t triangles() const { return corners.size() / 3; }
+  std::vector<Part> parts;                                      ///< in the order of the file
+  std::vector<ModelTexture> textures;                           ///< named by the materials of `parts`
+  std::string file;                                             ///< path of the mesh file
+  std::size_t triangles() const { return corners.size() / 3; }  ///< of all parts
 };
 
-/// importMesh (tri_mesh.h), and the model in the same file; no model: the file has neither colours nor textures. Textures are looked at, not decoded: E260 missing or unreadable, E261 neither PNG nor JPEG,
-/// E262 too large, E692 outside of the folders that the file may name; W263 no texture coordinates, W264 no material
-/// library. Thread and errors as importMesh.
+/// Result of importDrawn.
 struct DrawnMesh {
-  TriMesh mesh;
-  std::shared_ptr<const Model> model;
+  TriMesh mesh;                        ///< as by importMesh; empty after an error
+  std::shared_ptr<const Model> model;  ///< null: the file has neither colours nor textures
 };
+/// importMesh (tri_mesh.h), and the model in the same file; no model: the file has neither colours nor textures.
+/// Textures are looked at, not decoded: E260 missing or unreadable, E261 neither PNG nor JPEG, E262 too large, E692
+/// outside of the folders that the file may name; W263 no texture coordinates, W264 no material library. Thread and
+/// errors as importMesh.
 DrawnMesh importDrawn(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                       Diagnostics& diagnostics);
 

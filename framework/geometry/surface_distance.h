@@ -23,9 +23,10 @@ struct DistanceWanted {
       std::numeric_limits<double>::infinity();  ///< a larger one ends the search: the upper bound is infinite
 };
 
-/// One-sided Hausdorff distance: the max, over all points of `from`, of the distance to `to`. Both bounds are proven. Triangles of `from` are halved until their bound is below what was found: the
-/// distance from one triangle of `to` is a convex function, largest at a corner, and no distance grows faster than the way
-/// along `from`. Thread: any, not the haptic group.
+/// One-sided Hausdorff distance: the max, over all points of `from`, of the distance to `to`. Both bounds are proven.
+/// Triangles of `from` are halved until their bound is below what was found: the distance from one triangle of `to` is
+/// a convex function, largest at a corner, and no distance grows faster than the way along `from`. Thread: any, not the
+/// haptic group.
 SurfaceDistance surfaceDistance(const TriMesh& from, const TriMesh& to, const DistanceWanted& wanted,
                                 const GoOn& go_on = {});
 

@@ -9,7 +9,7 @@ namespace presa {
 /// logarithmic time. Thread: before a run.
 class SurfaceTree {
  public:
-  explicit SurfaceTree(const TriMesh& mesh);
+  explicit SurfaceTree(const TriMesh& mesh);  ///< of a mesh with at least one triangle
 
   /// Squared distance of p from the mesh [m^2], or `bound` when it is larger.
   double squaredDistance(const Vec3& p, double bound) const {

@@ -3,8 +3,8 @@
 
 namespace presa {
 
-/// Finds the textures that a model names and looks at their heads. Fills in file, width and height. Errors and warnings:
-/// importDrawn.
+/// Finds the textures that a model names and looks at their heads. Fills in file, width and height. Errors and
+/// warnings: importDrawn.
 void checkTextures(Model& model, const SourceLocation& where, Diagnostics& diagnostics);
 
 }  // namespace presa

@@ -16,8 +16,8 @@ struct TouchMesh {
   SurfaceDistance back;     ///< of it from the original
   double distance() const;  ///< Hausdorff distance [m]: an upper bound, proven (surface_distance.h)
 };
-/// The fewest triangles, to a tenth, whose Hausdorff distance from `mesh` is up to `max_error` [m]; as closed as `mesh`. The
-/// mesh itself if none has fewer.
+/// The fewest triangles, to a tenth, whose Hausdorff distance from `mesh` is up to `max_error` [m]; as closed as
+/// `mesh`. The mesh itself if none has fewer.
 TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on = {});
 /// The distances of `made.mesh`, between bounds that differ by up to a tenth of `max_error`.
 void measureTouchMesh(TouchMesh& made, const TriMesh& mesh, double max_error, const GoOn& go_on = {});

@@ -10,8 +10,9 @@ namespace presa {
 
 /// A primitive placed in the working frame.
 struct Primitive {
+  /// Shape; its centre is the origin of G, its axis the z axis.
   enum class Kind : std::uint8_t { kBox, kSphere, kCylinder, kCapsule };
-  Kind kind = Kind::kBox;
+  Kind kind = Kind::kBox;    ///< selects which of the sizes below count
   Pose X_AG;                 ///< geometry frame in the working frame
   Vec3 half = Vec3::Zero();  ///< box: half edge lengths
   double radius = 0;         ///< sphere, cylinder, capsule
@@ -22,7 +23,7 @@ struct Primitive {
 /// only through its distance, which is a convex function of the point; therefore the sweep below is exact for every
 /// kind.
 struct ConvexPiece {
-  std::int32_t body = -1;
+  std::int32_t body = -1;                           ///< index into Scene::bodies
   std::int32_t id = -1;                             ///< triangle: index in the body's mesh
   std::variant<PreparedTriangle, Primitive> shape;  ///< triangle: corners in the working frame
 };

@@ -11,8 +11,9 @@ namespace presa {
 /// none, however many haptic ticks lie between two of its steps: it applies the difference to its last step.
 /// Written by: haptic thread.
 struct EffectReactions {
+  /// Reaction on one body.
   struct OnBody {
-    std::int32_t body = kNoBody;
+    std::int32_t body = kNoBody;            ///< index into Scene::bodies
     Vec3 impulse_W = Vec3::Zero();          ///< [N s]
     Vec3 angular_impulse_W = Vec3::Zero();  ///< about the origin of the body's frame [N m s]
   };
@@ -22,6 +23,7 @@ struct EffectReactions {
   std::size_t roomBytes() const noexcept { return bodies.capacity() * sizeof(OnBody); }
 };
 
+/// ForceEffects writes it; the dynamics reads it.
 inline constexpr const char* kEffectReactionsPort = "effect_reactions";
 
 }  // namespace presa

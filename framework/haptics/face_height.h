@@ -9,6 +9,7 @@ namespace presa {
 /// Where a tool touches a flat face, in the face's tangent frame T. Thread: haptic; nonblocking.
 class FacePlace {
  public:
+  /// Keeps a reference to `input`.
   explicit FacePlace(const SurfaceInput& input) noexcept : input_(input), X_BT_(input.X_BT()) {}
   /// The touched point; x and y are its place on the face [m].
   Vec3 p_T() const noexcept { return X_BT_.inverseTimes(input_.touched_B()); }
@@ -27,8 +28,8 @@ void addHeight(double height, const Vec3& slope, SurfaceContact& contact) noexce
 
 /// A pattern at one place, and the gradient of amplitude * s over the face, in A.
 struct PatternOnFace {
-  double s = 0;  ///< in [-1, 1]
-  Vec3 slope = Vec3::Zero();
+  double s = 0;               ///< in [-1, 1]
+  Vec3 slope = Vec3::Zero();  ///< gradient of amplitude * s over the face, in A [-]
 };
 
 /// A pattern over flat faces, from the attributes of an element: shape, amplitude, wavelength, direction, across, seed
@@ -37,7 +38,7 @@ class FacePattern {
  public:
   /// Throws std::invalid_argument: an unknown shape, values that do not fit together, slopes above 1.
   explicit FacePattern(const PluginElement& element);
-  PatternOnFace at(const SurfaceInput& input) const noexcept;
+  PatternOnFace at(const SurfaceInput& input) const noexcept;  ///< at the touched point; haptic thread
   /// At a place in the face's tangent frame; in lengths of the waves. Thread: any; nonblocking.
   PatternValue at(const Vec3& p_T) const noexcept;
   double amplitude() const noexcept { return amplitude_; }  ///< [m]

@@ -14,8 +14,8 @@
 namespace presa {
 
 /// The force effects of a scene. Adds their forces and torques to those of each tool, and sums up their reactions on
-/// moving bodies. A plug-in whose force or couple is not finite or above its bound is broken: from then on every tool's force is
-/// NaN, which the output stage latches as a fault and takes to zero.
+/// moving bodies. A plug-in whose force or couple is not finite or above its bound is broken: from then on every tool's
+/// force is NaN, which the output stage latches as a fault and takes to zero.
 /// Thread: haptic, except for construction and names.
 class ForceEffects {
  public:
@@ -25,6 +25,8 @@ class ForceEffects {
 
   /// The reactions, all zero, for the port that will hold them.
   EffectReactions reactions() const;
+  /// Adds the forces of all effects on one tool to `out`, and their reactions over the tick to `reactions`, which must
+  /// come from reactions(). NaN force after a broken contract.
   void apply(std::size_t tool, const Tick& tick, const FingerInput& input, double radius, const Touchables& touchables,
              FingerContact& out, EffectReactions& reactions) noexcept;
 

@@ -11,8 +11,8 @@ namespace presa {
 /// The friction laws of a scene, by body.
 class FrictionLaws {
  public:
-  /// Loads the plug-ins of the materials that have friction and that a finger can touch. Throws InputError: the errors of
-  /// pluginTable; E596 a law that cannot be made.
+  /// Loads the plug-ins of the materials that have friction and that a finger can touch. Throws InputError: the errors
+  /// of pluginTable; E596 a law that cannot be made.
   explicit FrictionLaws(const Scene& scene);
 
   /// Null only for bodies that no finger can touch. Haptic thread.
@@ -30,7 +30,7 @@ class FrictionLaws {
 
 /// The element that gives the material's law, or null: kDefaultFrictionLaw.
 const PluginElement* frictionElementOf(const Scene& scene, std::size_t material);
-/// The same with the default filled in, which stands for <friction> itself.
+/// The same with the default filled in, which stands for `<friction>` itself.
 PluginElement frictionLawOf(const Scene& scene, std::size_t material);
 /// Whether fingers feel friction on the material, now or after the surface change.
 bool hasFriction(const Scene& scene, std::size_t material);

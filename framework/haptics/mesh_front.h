@@ -24,14 +24,14 @@ struct SweepTolerance {
 /// Frame: mesh coordinates G [m]. Fixed memory. Thread: haptic; nonblocking.
 class MeshFront {
  public:
-  static constexpr int kCapacity = 2048;
+  static constexpr int kCapacity = 2048;  ///< items: triangles and nodes
 
-  static constexpr std::size_t kMaxSeeds = 16;
+  static constexpr std::size_t kMaxSeeds = 16;  ///< nodes that seed() takes
 
   /// Restarts from at most kMaxSeeds nodes that cover everything within reach.
   void seed(const MeshTree& tree, std::span<const std::int32_t> nodes, const Vec3& p) noexcept;
-  bool seeded() const noexcept { return tree_ != nullptr; }
-  void forget() noexcept { tree_ = nullptr; }
+  bool seeded() const noexcept { return tree_ != nullptr; }  ///< seed() was called, and forget() was not since
+  void forget() noexcept { tree_ = nullptr; }                ///< drops the mesh: seed() before the next query
   /// True when the front has grown much since its seed, mostly by items left behind: reseed it. Call once per tick.
   bool worn() noexcept {
     if (fresh_ == 0) fresh_ = count_;
@@ -39,7 +39,7 @@ class MeshFront {
   }
   /// True when a node found no room for its children since the last seed(). That node then acts as a solid box.
   bool full() const noexcept { return full_; }
-  int count() const noexcept { return count_; }
+  int count() const noexcept { return count_; }  ///< items of the front
 
   /// Reseeds a full front from the same nodes: after a long path most items lie behind.
   void renew(const Vec3& p) noexcept {
@@ -61,7 +61,7 @@ class MeshFront {
 
   /// Marks items until the next clearMarks().
   void mark(int item) noexcept { marks_[static_cast<std::size_t>(item)] = mark_; }
-  void clearMarks() noexcept { ++mark_; }
+  void clearMarks() noexcept { ++mark_; }  ///< no item is marked any more
 
   /// Facet of an item; -1: a node of a full front.
   std::int32_t facetOf(int item) const noexcept {

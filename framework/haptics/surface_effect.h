@@ -12,16 +12,17 @@ namespace presa {
 
 /// One tool that touches the body of an effect, in one haptic tick. Vectors in the working frame A.
 struct SurfaceInput {
-  std::size_t tool;  ///< index of the scene's device role
-  double time;       ///< of the tick [s]
-  double period;     ///< [s]
-  double radius;     ///< of the tool [m]
-  const Vec3& g;     ///< where the device is [m]
-  const ProxyContact& contact;
-  const Pose& X_WA;
-  const Touchables& touchables;
-  const Surroundings& near;  ///< the pieces of contact.active are those of Point::kGodObject
+  std::size_t tool;              ///< index of the scene's device role
+  double time;                   ///< of the tick [s]
+  double period;                 ///< [s]
+  double radius;                 ///< of the tool [m]
+  const Vec3& g;                 ///< where the device is [m]
+  const ProxyContact& contact;   ///< what the renderer answered, with friction
+  const Pose& X_WA;              ///< pose of A
+  const Touchables& touchables;  ///< poses of all bodies in this tick
+  const Surroundings& near;      ///< the pieces of contact.active are those of Point::kGodObject
 
+  /// Takes vectors of A to coordinates of the body: p_B = X_BA(body) * p_A.
   Pose X_BA(std::int32_t body) const noexcept { return touchables.frameOf(body).inverse() * X_WA; }
   /// Touched point of the body without friction, in the body's coordinates [m].
   Vec3 touched_B() const noexcept { return X_BA(contact.body) * (contact.state.god_object - radius * contact.nhat); }
@@ -44,12 +45,12 @@ struct SurfaceContact {
 class SurfaceEffect {
  public:
   virtual ~SurfaceEffect() = default;
-  /// Unit normal of the piece of this body that holds the tool; `nhat` before this effect. The force keeps its magnitude
-  /// and turns by less than 60 degrees, else the change is left out.
+  /// Unit normal of the piece of this body that holds the tool; `nhat` before this effect. The force keeps its
+  /// magnitude and turns by less than 60 degrees, else the change is left out.
   virtual Vec3 normal(const SurfaceInput&, const ActiveSet::Member&, const Vec3& nhat) noexcept { return nhat; }
   /// A contact that is not finite, or stiffer than its material, ends the run: forces go to zero, and the fault is
-  /// reported with the effect's name. Presa turns the tangential displacement with the normal, and lets it fall with the
-  /// depth, so that friction keeps its bound.
+  /// reported with the effect's name. Presa turns the tangential displacement with the normal, and lets it fall with
+  /// the depth, so that friction keeps its bound.
   virtual void apply(const SurfaceInput&, SurfaceContact&) noexcept {}
   /// Description for `presa explain`.
   virtual std::string what() const = 0;
@@ -57,14 +58,15 @@ class SurfaceEffect {
 
 /// Table of a surface-effect plug-in; its manifest (framework/scene/manifest.h) names its elements.
 struct SurfaceEffectPlugin {
-  int abi = kPluginAbi;
-  const char* name;  ///< as in the manifest
+  int abi = kPluginAbi;  ///< leave it as it is: another version is refused (E510)
+  const char* name;      ///< as in the manifest
   /// The effect on the body element.body; may throw (E596). The world stays alive as long as the effect.
   std::unique_ptr<SurfaceEffect> (*create)(const PluginElement& element, const World& world);
 };
 
 }  // namespace presa
 
+/// Exports `table`, a SurfaceEffectPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_SURFACE_EFFECT_PLUGIN(table)                                                                         \
   extern "C" __attribute__((visibility("default"))) const presa::SurfaceEffectPlugin* presaSurfaceEffectPlugin() { \
     return &(table);                                                                                               \

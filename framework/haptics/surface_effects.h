@@ -15,6 +15,7 @@ class SurfaceEffects {
   /// Loads the plug-ins. Throws InputError: the errors of pluginTable; E596 an effect that cannot be made.
   explicit SurfaceEffects(const World& world);
 
+  /// Whether the body has effects.
   bool on(std::int32_t body) const noexcept { return !of_body_[static_cast<std::size_t>(body)].empty(); }
   /// Lets the effects of the touched body act on `contact`, which is also input.contact. `stiffness`: of its material;
   /// `softness`: the stiffness that is left over it. False: an effect broke its contract, now or before.
@@ -37,8 +38,8 @@ class SurfaceEffects {
   std::atomic<const Effect*> broken_{nullptr};
 };
 
-/// The effects that the scene's touchable bodies have: elements of the scene, one for each body, with `body` filled in, and
-/// force shading for meshes with shading="smooth". Those that need a proxy are left out if the renderer has none.
+/// The effects that the scene's touchable bodies have: elements of the scene, one for each body, with `body` filled in,
+/// and force shading for meshes with shading="smooth". Those that need a proxy are left out if the renderer has none.
 std::vector<PluginElement> surfaceEffectsOf(const Scene& scene);
 
 /// One of them. Throws InputError: the errors of pluginTable; E596 an effect that cannot be made. Thread: main or view.

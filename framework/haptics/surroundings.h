@@ -25,9 +25,9 @@ struct PieceRef {
 
 /// A piece with its nearest direction and distance, in the working frame A.
 struct NearPiece {
-  PieceRef ref;
-  std::int32_t body;
-  Nearest at;
+  PieceRef ref;       ///< valid until the next begin()
+  std::int32_t body;  ///< index into Scene::bodies
+  Nearest at;         ///< from the piece to the queried point
 };
 
 /// The convex pieces around one fingertip, in the working frame A. Primitives are added in every tick. Meshes keep a
@@ -35,15 +35,15 @@ struct NearPiece {
 /// Fixed memory after construction. Thread: haptic; nonblocking.
 class Surroundings {
  public:
-  static constexpr int kMaxPrimitives = 64;
-  static constexpr int kMaxMeshes = 16;
+  static constexpr int kMaxPrimitives = 64;   ///< more near one finger: crowded()
+  static constexpr int kMaxMeshes = 16;       ///< more near one finger: crowded()
   static constexpr std::size_t kTrail = 520;  ///< points of two motions with the maximum number of legs
   /// `meshes`: maximum number of mesh bodies near the finger at once, at most kMaxMeshes.
   explicit Surroundings(std::size_t meshes = 1);
 
   /// Starts a tick.
   void begin() noexcept;
-  void add(const ConvexPiece& primitive) noexcept;
+  void add(const ConvexPiece& primitive) noexcept;  ///< when full: left out, see crowded()
   /// Adds a mesh body. X_AG null: mesh coordinates are those of A. All queries of this tick must stay within `reach` of
   /// p_A. `cut` may be null.
   void addMesh(std::int32_t body, const MeshTree& tree, const Pose* X_AG, const Pose& X_BG, const NearBody* cut,
@@ -57,11 +57,13 @@ class Surroundings {
 
   /// The triangle that a piece of a point's fronts is; does not change the point or its trail.
   struct Triangle {
-    const MeshTree* tree = nullptr;
+    const MeshTree* tree = nullptr;          ///< mesh's own; null for a primitive
     const MeshTree::Facet* facet = nullptr;  ///< null, like `tree`, for a primitive
     Vec3 x_G = Vec3::Zero();                 ///< the given point in mesh coordinates
   };
+  /// `point` need not be the one in use; x in A.
   Triangle triangleOf(Point point, const PieceRef& ref, const Vec3& x) const noexcept;
+  /// Of the point in use.
   Triangle triangleOf(const PieceRef& ref, const Vec3& x) const noexcept {
     return triangleOf(static_cast<Point>(point_), ref, x);
   }
@@ -75,7 +77,7 @@ class Surroundings {
   }
   /// Distance that the HIP moved in this tick relative to the touched body [m]; used to plan the focus.
   double step() const noexcept { return step_; }
-  void setStep(double step) noexcept { step_ = step; }
+  void setStep(double step) noexcept { step_ = step; }  ///< before focus() of the tick
 
   /// Calls visit(const NearPiece&) for every piece in focus whose distance from x is at most `limit`. A visit may lower
   /// it.
@@ -84,13 +86,14 @@ class Surroundings {
   /// As above for one source: mesh 0 … meshCount() - 1, or -1 for the primitives.
   template <class Visit>
   void forEachWithin(int source, const Vec3& x, const double& limit, const Visit& visit) noexcept;
+  /// `i` as in PieceRef::item, unchecked.
   const ConvexPiece& primitive(int i) const noexcept { return primitives_[static_cast<std::size_t>(i)]; }
-  int meshCount() const noexcept { return static_cast<int>(near_count_); }
+  int meshCount() const noexcept { return static_cast<int>(near_count_); }  ///< meshes of this tick
   /// First s in [0, reach] at which a sphere of radius r, whose centre moves from x to x + s move, touches an unmarked
   /// piece in focus; `reach` when none.
   double firstTouch(const Vec3& x, const Vec3& move, double reach, double r, const SweepTolerance& tolerance) noexcept;
-  void clearMarks() noexcept;
-  void mark(const PieceRef& ref) noexcept;
+  void clearMarks() noexcept;               ///< of the point in use, and of primitives
+  void mark(const PieceRef& ref) noexcept;  ///< firstTouch() passes over it until clearMarks()
 
   /// Rotation from the mesh coordinates of a piece to A.
   Mat3 turnOf(const PieceRef& ref) const noexcept {

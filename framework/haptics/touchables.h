@@ -13,12 +13,12 @@ namespace presa {
 /// construction.
 class Touchables {
  public:
-  explicit Touchables(const World& world);
+  explicit Touchables(const World& world);  ///< keeps references to the meshes: `world` must outlive it
 
   /// Radius of the sphere that stands in for a point-shaped fingertip [m]: far above the rounding errors of the largest
   /// body, far below any perceptible size of the smallest. Depth and contact point are reported for the point.
   double lift() const noexcept { return std::max(1e-6 * largest_, 1e-5 * smallest_); }
-  std::size_t meshCount() const noexcept { return mesh_count_; }
+  std::size_t meshCount() const noexcept { return mesh_count_; }  ///< touchable bodies that are meshes
   /// Whether `body` is the index of a touchable body.
   bool has(std::int32_t body) const noexcept {
     return static_cast<std::size_t>(body) < touchable_of_.size() && touchable_of_[static_cast<std::size_t>(body)] >= 0;
@@ -27,8 +27,9 @@ class Touchables {
   /// Sets the poses of a tick: interpolated at `time`, or held at the end of the dynamics step. Before the first call
   /// bodies have their start poses.
   void interpolate(const ObjectState& objects, double time) noexcept;
-  void hold(const ObjectState& objects) noexcept;
+  void hold(const ObjectState& objects) noexcept;  ///< until the next call, at ObjectState::time_end
 
+  /// Pose X_WB in this tick; identity for kNoBody.
   Pose frameOf(std::int32_t body) const noexcept { return body == kNoBody ? Pose{} : placed(body); }
   /// Velocity of the material point of the body at p_W [m/s].
   Vec3 velocityAt(std::int32_t body, const Vec3& p_W) const noexcept;

@@ -15,6 +15,7 @@ namespace presa::ages {
 inline constexpr double kPeriods = 2;    ///< maximum age in periods of the writer [-]
 inline constexpr double kFloor = 0.020;  ///< smallest limit [s]
 
+/// For a writer of that rate [Hz]; [s].
 inline double oldAfter(double rate) noexcept { return std::max(kFloor, kPeriods / rate); }
 
 /// Limit for the neighbourhoods, written by the collision thread [s].

@@ -4,7 +4,7 @@
 
 namespace presa {
 
-inline constexpr std::size_t kNoElement = static_cast<std::size_t>(-1);
+inline constexpr std::size_t kNoElement = static_cast<std::size_t>(-1);  ///< an index of an element that means none
 
 /// The texts shown to a user about an assembly, in one language. The placeholders {count}, {all}, {element} and {time}
 /// are replaced; assemblyPhrases() lists the placeholders that each phrase may use.
@@ -15,6 +15,7 @@ struct AssemblyWords {
     std::string called;  ///< name shown to the user, capitalised
     std::string says;    ///< one sentence about it
     std::string waits;   ///< reason why it cannot be placed yet: "The capital needs its drum first."
+    /// A further sentence about a kind of body.
     struct Story {
       std::string says;    ///< a further sentence
       std::string source;  ///< where it is written; not shown
@@ -27,25 +28,26 @@ struct AssemblyWords {
     std::string keys;  ///< what to do: "Turn the wheel forwards"
     std::string does;  ///< what happens: "the fingers close"
   };
-  std::string language = "en";
-  std::string progress = "{count} of {all}";
-  std::string next = "Next: {element}";
-  std::string placed = "Placed: {element}";
-  std::string undone = "Taken out: {element}";
-  std::string dropped = "{element}: fallen, and still within reach";
-  std::string finished = "All stands.";
-  std::string took = "In {time}.";
-  std::string invitation = "Touch to begin";
-  std::vector<Element> elements;
+  std::string language = "en";                                        ///< two letters such as "en"
+  std::string progress = "{count} of {all}";                          ///< how many goals are filled
+  std::string next = "Next: {element}";                               ///< kind of the next body
+  std::string placed = "Placed: {element}";                           ///< a body fills its goal
+  std::string undone = "Taken out: {element}";                        ///< an undo took a body out
+  std::string dropped = "{element}: fallen, and still within reach";  ///< a body fell
+  std::string finished = "All stands.";                               ///< every goal is filled
+  std::string took = "In {time}.";                                    ///< after `finished`: assembly time
+  std::string invitation = "Touch to begin";                          ///< shown until somebody touches
+  std::vector<Element> elements;                                      ///< kinds that goals refer to
   std::vector<Action> actions;  ///< in the order of the help table; empty: not for visitors with a mouse
 };
 
 /// A phrase: its attribute in the XML, its text, and the placeholders it may use.
 struct AssemblyPhrase {
-  const char* attribute;
-  std::string AssemblyWords::*text;
-  std::vector<std::string> places;
+  const char* attribute;             ///< "progress"
+  std::string AssemblyWords::*text;  ///< &AssemblyWords::progress
+  std::vector<std::string> places;   ///< "count", "all"
 };
+/// All phrases, in the order of AssemblyWords.
 const std::vector<AssemblyPhrase>& assemblyPhrases();
 
 /// `text` with every {place} replaced by `value`.

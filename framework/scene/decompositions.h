@@ -8,9 +8,10 @@ namespace presa {
 
 /// A physics mesh that was cut into convex pieces.
 struct DecomposedMesh {
-  std::string body, file;
-  std::size_t pieces = 0;
-  double error = 0;  ///< Hausdorff distance between the mesh and the union of its pieces, as solids [m]
+  std::string body,        ///< name of the body
+      file;                ///< as MeshRef::file
+  std::size_t pieces = 0;  ///< number of convex pieces
+  double error = 0;        ///< Hausdorff distance between the mesh and the union of its pieces, as solids [m]
 };
 
 /// Of all bodies, in scene order. Thread: any.

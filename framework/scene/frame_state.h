@@ -21,7 +21,7 @@ enum FrameDoing : std::uint32_t {
 
 /// One frame of the rig at one moment.
 struct FrameNow {
-  Pose X_WF;
+  Pose X_WF;                   ///< pose now
   double zoom = 1;             ///< metres of the world for one of the frame
   std::uint32_t doing = 0;     ///< FrameDoing bits
   std::uint32_t uses = 0;      ///< walks, clutches and zooms begun so far
@@ -32,11 +32,11 @@ struct FrameNow {
 /// The frames of the rig, in its order. Only in runs whose rig has frames.
 /// Sized at load. Written by: haptic thread (frame_watch).
 struct FrameState {
-  double time = 0;  ///< [s]
-  std::vector<FrameNow> frames;
+  double time = 0;               ///< [s]
+  std::vector<FrameNow> frames;  ///< in the order of Rig::frames
 
-  FrameState() = default;
-  explicit FrameState(std::size_t count) : frames(count) {}
+  FrameState() = default;                                    ///< of no frame
+  explicit FrameState(std::size_t count) : frames(count) {}  ///< frames of the rig
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return frames.capacity() * sizeof(FrameNow); }
 };

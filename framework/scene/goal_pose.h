@@ -10,6 +10,7 @@ struct PoseDifference {
   double distance = 0;  ///< [m]
   double angle = 0;     ///< [rad], 0 to pi
 };
+/// How far `b` is from `a`; symmetric.
 PoseDifference poseDifference(const Pose& a, const Pose& b);
 
 /// The goal pose nearest to the orientation `q_WB`, among the poses that look the same as `X_WB`: turned about the

@@ -8,52 +8,63 @@
 
 namespace presa {
 
-/// What a plug-in adds to scenes or experiments, from the file `presa_NAME.xml` beside its library `presa_NAME.so`. Manifests are read
-/// without loading any library, so that a scene costs nothing for plug-ins that it does not name.
+/// What a plug-in adds to scenes or experiments, from the file `presa_NAME.xml` beside its library `presa_NAME.so`.
+/// Manifests are read without loading any library, so that a scene costs nothing for plug-ins that it does not name.
 struct Manifest {
+  /// Element in which an element of the plug-in stands: "in" of the manifest.
   enum class Place { kBody, kScene, kMaterial, kFriction, kHaptics, kProcedure };
 
   /// Type "file": in an element, a path relative to the scene; in a setting, to the rig.
   struct Attribute {
-    std::string name, type, unit, about;
-    bool required = true;
-    std::string default_value;    ///< if not required
-    std::string above, min, max;  ///< bounds of a number; empty: none
+    std::string name,           ///< of the attribute or setting
+        type,                   ///< number, vector3, boolean, name, text or file; of a setting also quaternion or hand
+        unit,                   ///< SI unit such as "N m"; empty: none
+        about;                  ///< meaning, one sentence
+    bool required = true;       ///< it has no default
+    std::string default_value;  ///< if not required
+    std::string above,          ///< exclusive minimum of a number; empty: none
+        min,                    ///< minimum of a number; empty: none
+        max;                    ///< maximum of a number; empty: none
   };
+  /// An element that the plug-in adds to scenes or experiments.
   struct Element {
-    std::string name;
-    Place place = Place::kBody;
-    std::vector<Attribute> attributes;
-    SourceLocation where;
+    std::string name;                   ///< unique among all plug-ins (E594)
+    Place place = Place::kBody;         ///< where it may stand
+    std::vector<Attribute> attributes;  ///< those that it may have
+    SourceLocation where;               ///< in the manifest
   };
 
   /// When a run needs a module, and where it runs.
   struct ModuleRole {
-    RateGroup rate = RateGroup::kHaptic;
-    /// One of several engines: scenes choose it by <dynamics engine>. Empty: no engine.
+    RateGroup rate = RateGroup::kHaptic;  ///< group in which the module steps
+    /// One of several engines: scenes choose it by `<dynamics engine="…">`. Empty: no engine.
     std::string engine;
-    /// What an engine supports: fingers, snap constraints of an assembly, body effects, joints.
-    bool fingers = true, snap = true, body_effects = true, joints = true;
+    bool fingers = true,      ///< the engine supports fingers
+        snap = true,          ///< the engine supports snap constraints, which assemblies need
+        body_effects = true,  ///< the engine supports body effects
+        joints = true;        ///< the engine supports joints
     /// Alternatives. Each lists the facts (framework/scene/scene_facts.h) that must hold together. Empty: the module is
     /// needed where one of its elements stands.
     std::vector<std::vector<std::string>> wanted;
   };
 
-  std::string name, version;  ///< of the plug-in
-  PluginKind kind = PluginKind::kForceEffect;
-  std::string about;
-  /// "proxy": a renderer with a proxy; "view", "bus": the module that draws, that publishes; "figure": a device whose
-  /// driver says what it looks like (framework/device/device_figure.h); empty: nothing others ask for
+  std::string name,                            ///< of the plug-in: its library is presa_NAME.so
+      version;                                 ///< of the plug-in, such as "1.0"
+  PluginKind kind = PluginKind::kForceEffect;  ///< says which of the members below count
+  std::string about;                           ///< what it does, one sentence
+  /// "proxy": a renderer with a proxy; "hand": a driver whose hand may wear another device; "view", "bus": the module
+  /// that draws, that publishes; "figure": a device whose driver says what it looks like
+  /// (framework/device/device_figure.h); empty: nothing others ask for
   std::string gives;
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
   std::string left_out;  ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
-  std::vector<Element> elements;
+  std::vector<Element> elements;    ///< elements that it adds
   std::vector<Attribute> settings;  ///< of a device: keys that a rig may set
   ModuleRole module;                ///< of a module
-  std::string file;
+  std::string file;                 ///< path of the manifest
 
-  bool hasProxy() const { return gives == "proxy"; }
-  bool hasFigure() const { return gives == "figure"; }
+  bool hasProxy() const { return gives == "proxy"; }    ///< a renderer whose proxy friction can hold
+  bool hasFigure() const { return gives == "figure"; }  ///< a driver that says what its device looks like
 };
 
 /// Reads the manifests in the plug-in folders (pluginFolders). Of two with the same name the first folder's counts.

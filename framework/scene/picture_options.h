@@ -19,34 +19,42 @@ enum class ViewSide : std::size_t {
   kTop,    ///< from +z, with +y upwards in the picture
   kIso     ///< between front, right and top, with equal angles to all three
 };
+/// By ViewSide.
 inline constexpr std::array<std::string_view, 6> kViewSideNames{"front", "back", "left", "right", "top", "iso"};
 
 /// A camera at `eye` that looks at `target` [m]. +z is upwards in the picture, +y where it looks straight up or down.
 struct CameraPlace {
-  Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+  Vec3 eye = Vec3::Zero(),    ///< in W [m]
+      target = Vec3::Zero();  ///< in W, in the middle of the picture [m]
 };
-inline constexpr double kCameraNearest = 0.01, kCameraFarthest = 500;  ///< distance from eye to target [m]
-inline constexpr double kCameraReach = 10'000;                         ///< of each coordinate, from the origin [m]
+inline constexpr double kCameraNearest = 0.01,  ///< shortest distance from eye to target [m]
+    kCameraFarthest = 500;                      ///< longest distance from eye to target [m]
+inline constexpr double kCameraReach = 10'000;  ///< of each coordinate, from the origin [m]
 
-inline constexpr int kPictureSmallest = 64, kPictureLargest = 8192;  ///< width and height [pixel]
+inline constexpr int kPictureSmallest = 64,  ///< shortest width or height [pixel]
+    kPictureLargest = 8192;                  ///< longest width or height [pixel]
 
 /// How a picture looks, apart from its parts (RunOptions::show). Each default changes nothing and costs nothing.
 struct PictureOptions {
+  /// How much text stands over the picture.
   enum class Hud {
     kOff,      ///< nothing but what is asked for by name
     kMinimal,  ///< scene, time and a scale bar
     kFull
   };
+  /// What is behind bodies and fingers.
   enum class Background {
     kScene,       ///< floor and sky
     kWhite,       ///< neither of them
     kTransparent  ///< neither of them; PNG with alpha
   };
-  std::optional<std::variant<ViewSide, CameraPlace>> camera{};
-  int width = 1280, height = 720;  ///< of a picture, and of a window when it opens [pixel]
-  Hud hud = Hud::kFull;
-  bool legend = false;  ///< explains arrows, cones and colours
-  Background background = Background::kScene;
+  std::optional<std::variant<ViewSide, CameraPlace>> camera{};  ///< none: the view's own
+  int width = 1280,                                             ///< of a picture, and of a window when it opens [pixel]
+      height = 720;                                             ///< the same [pixel]
+  Hud hud = Hud::kFull;                                         ///< text over the picture
+  bool legend = false;                                          ///< explains arrows, cones and colours
+  Background background = Background::kScene;                   ///< behind bodies and fingers
+  /// Time of day.
   enum class Light {
     kNoon,
     kEvening  ///< a low, warm sun and long shadows

@@ -19,38 +19,45 @@ namespace presa {
 
 /// How a physics mesh that is not convex is cut into convex pieces at load.
 struct Decomposition {
-  std::size_t max_pieces = 64;
-  double max_error = 0.001;  ///< depth to which a piece may bridge a hollow of the mesh [m]
+  std::size_t max_pieces = 64;  ///< upper bound of their number, up to 256
+  double max_error = 0.001;     ///< depth to which a piece may bridge a hollow of the mesh [m]
 };
+/// A mesh file and how it is read.
 struct MeshRef {
-  std::string file;  ///< resolved path: absolute, or relative to the working directory
-  Vec3 scale = Vec3::Ones();
+  std::string file;                          ///< resolved path: absolute, or relative to the working directory
+  Vec3 scale = Vec3::Ones();                 ///< per axis [-]; see ImportOptions::scale
   std::optional<Decomposition> decompose{};  ///< physics only; none: the mesh as it is
 };
+/// A box, centred.
 struct Box {
-  Vec3 size = Vec3::Zero();
-};  ///< full edge lengths [m], centred
+  Vec3 size = Vec3::Zero();  ///< full edge lengths [m]
+};
+/// A sphere, centred.
 struct Sphere {
-  double radius = 0;
-};  ///< [m]
+  double radius = 0;  ///< [m]
+};
+/// A cylinder, axis z, centred.
 struct Cylinder {
-  double radius = 0;
-  double length = 0;
-};  ///< axis z, centred [m]
+  double radius = 0;  ///< [m]
+  double length = 0;  ///< [m]
+};
+/// A capsule, axis z, centred.
 struct Capsule {
-  double radius = 0;
-  double length = 0;
-};  ///< axis z, centred; length without the caps [m]
+  double radius = 0;  ///< [m]
+  double length = 0;  ///< without the caps [m]
+};
 struct ShapePart;
 /// Several shapes that together are one physics geometry (framework/scene/physics_shapes.h lists them).
 struct Compound {
-  std::vector<ShapePart> parts;
+  std::vector<ShapePart> parts;  ///< at least one, in document order
 };
+/// Any shape that a geometry can have.
 using Shape = std::variant<MeshRef, Box, Sphere, Cylinder, Capsule, Compound>;
+/// One shape of a Compound.
 struct ShapePart {
-  Shape shape;  ///< no Compound
-  Pose X_GP;    ///< in the frame of the geometry
-  SourceLocation where;
+  Shape shape;           ///< no Compound
+  Pose X_GP;             ///< in the frame of the geometry
+  SourceLocation where;  ///< its element in the scene
 };
 
 /// Radius of the bounding sphere of a primitive about its own origin [m]; 0 for a mesh, whose size is not known here,
@@ -65,19 +72,21 @@ inline double boundingRadius(const Shape& shape) {
 
 /// One geometry of a body (visual, haptic or physics), placed in the body frame B.
 struct Geometry {
-  Shape shape;
-  Pose X_BG;
-  SourceLocation where;
-  bool smooth = false;  ///< haptic mesh: rendered with normals interpolated over the facets (force shading)
+  Shape shape;           ///< in the geometry frame G
+  Pose X_BG;             ///< pose of G in the body
+  SourceLocation where;  ///< its element in the scene
+  bool smooth = false;   ///< haptic mesh: rendered with normals interpolated over the facets (force shading)
 };
 
+/// Coulomb friction between a finger and a surface.
 struct FrictionCoefficients {
   double mu_static = 0;   ///< [-], >= dynamic
   double mu_dynamic = 0;  ///< [-]
 };
 
+/// How surfaces feel, look, and rub against each other.
 struct Material {
-  std::string name;
+  std::string name;             ///< unique among materials (E203)
   double stiffness = 0;         ///< [N/m], > 0
   double damping = 0;           ///< [N s/m], >= 0
   double friction_static = 0;   ///< [-], >= dynamic
@@ -88,14 +97,16 @@ struct Material {
   std::optional<FrictionCoefficients>
       changed_friction;       ///< friction under a finger after the surface change of an experiment; none: no change
   Vec3 color{0.7, 0.7, 0.7};  ///< linear RGB in [0, 1]
+  /// Pattern that the view draws over `color`.
   enum class Texture { kNone, kStone, kEarth };
   Texture texture = Texture::kNone;  ///< how it is drawn
-  SourceLocation where;
+  SourceLocation where;              ///< its element in the scene
 };
 
+/// A rigid body.
 struct Body {
-  std::string name;
-  bool fixed = false;
+  std::string name;                 ///< unique among bodies (E203)
+  bool fixed = false;               ///< never moves: part of the world
   Pose X_WB;                        ///< start pose; B's origin is the centre of mass for primitives
   Vec3 v_WCm = Vec3::Zero();        ///< initial velocity of the centre of mass [m/s]
   Vec3 w_WB = Vec3::Zero();         ///< initial angular velocity [rad/s]
@@ -106,7 +117,7 @@ struct Body {
   std::optional<Geometry> visual;   ///< absent: the haptic geometry is drawn, else the physics geometry
   std::optional<Geometry> haptic;   ///< absent: fingers pass through
   std::optional<Geometry> physics;  ///< absent (fixed bodies only): other bodies pass through
-  SourceLocation where;
+  SourceLocation where;             ///< its element in the scene
 };
 
 /// Limits that the scene sets for a device role. The rig may tighten them.
@@ -120,57 +131,63 @@ struct DeviceLimits {
 
 /// A device role that the scene asks for. The rig binds hardware to it.
 struct DeviceRole {
-  std::string role;
+  std::string role;                 ///< "thumb": the rig binds a device to it
   double fingertip_radius = 0.008;  ///< [m]; 0: point contact
-  DeviceLimits limits;
-  SourceLocation where;
+  DeviceLimits limits;              ///< the rig may tighten them
+  SourceLocation where;             ///< its element in the scene
 };
 
-/// What a scene gets that names none, as in its schema.
-inline constexpr const char* kDefaultRenderer = "god_object";
-inline constexpr const char* kDefaultEngine = "ode";
+inline constexpr const char* kDefaultRenderer = "god_object";  ///< of a scene that names none, as in its schema
+inline constexpr const char* kDefaultEngine = "ode";           ///< of a scene that names none, as in its schema
 
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
 /// comparison.
 struct HapticSettings {
+  /// Poses of bodies within a dynamics step: interpolated to the tick, or held at the end of the step.
   enum class PoseUse { kInterpolate, kHold };
   std::string renderer = kDefaultRenderer;  ///< plug-in (framework/haptics/renderer.h)
   bool proxy = true;                        ///< its manifest gives a proxy that friction can hold
-  PoseUse pose = PoseUse::kInterpolate;
+  PoseUse pose = PoseUse::kInterpolate;     ///< of bodies in the haptic tick
 };
 
+/// How the collision thread finds what is near a finger.
 struct CollisionSettings {
   /// How the collision thread finds the triangles near a finger: the hierarchy of the haptic tick alone, a tree of
   /// oriented boxes, or a uniform grid of such trees (H-COLLIDE).
   enum class Index { kTree, kObb, kHcollide };
-  Index index = Index::kTree;
+  Index index = Index::kTree;  ///< of haptic meshes
   double margin = 0;  ///< extent of the neighbourhood beyond the fingertip [m]; 0: chosen from the finger's motion
   std::size_t max_triangles = 0;  ///< no effect; accepted for older scenes
 };
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.
 struct DynamicsSettings {
-  /// kHapticRate: soft, and at the haptic rate for bodies that fingers hold, up to `max_held` together.
+  /// kSoft: fingers are implicit spring-dampers in the solver; kExplicit: their force acts for one step; kAveraged: the
+  /// mean force since the step before acts for one step; kHapticRate: soft, and at the haptic rate for bodies that
+  /// fingers hold, up to `max_held` together.
   enum class Coupling { kSoft, kExplicit, kAveraged, kHapticRate };
-  /// kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own (modules/dynamics_ode).
+  /// kAuto: chosen for each island; kDirect, kIterative: of the engine; kNewton, kSmallSteps: Presa's own
+  /// (modules/dynamics_ode).
   enum class Solver { kAuto, kDirect, kIterative, kNewton, kSmallSteps };
+  /// Between bodies: Coulomb's cone, or the engine's own pyramid, too strong between its axes.
   enum class Friction { kIsotropic, kPyramid };
-  /// kMatrix: R (I + S(w) dt), re-orthonormalised; kEuler: one Euler step of Euler's equations.
+  /// kExact: Presa's own; kEngine: the engine's; kNone: no gyroscopic term; kMatrix: R (I + S(w) dt),
+  /// re-orthonormalised; kEuler: one Euler step of Euler's equations.
   enum class Rotation { kExact, kEngine, kNone, kEuler, kMatrix };
-  std::string engine = kDefaultEngine;  ///< name of a plug-in's manifest
-  Coupling coupling = Coupling::kSoft;
-  Solver solver = Solver::kAuto;
-  std::size_t iterations = 0;  ///< of the iterative solver; 0: as many as fit into the period
-  std::size_t substeps = 0;    ///< per period; 0: chosen for each island
-  Friction friction = Friction::kIsotropic;
-  Rotation rotation = Rotation::kExact;
-  bool sleeping = true;
-  std::size_t max_held = 3;
+  std::string engine = kDefaultEngine;       ///< name of a plug-in's manifest
+  Coupling coupling = Coupling::kSoft;       ///< of fingers with bodies
+  Solver solver = Solver::kAuto;             ///< of contacts between bodies
+  std::size_t iterations = 0;                ///< of the iterative solver; 0: as many as fit into the period
+  std::size_t substeps = 0;                  ///< per period; 0: chosen for each island
+  Friction friction = Friction::kIsotropic;  ///< between bodies
+  Rotation rotation = Rotation::kExact;      ///< of free bodies over a step
+  bool sleeping = true;                      ///< bodies at rest and out of reach cost nothing
+  std::size_t max_held = 3;  ///< of kHapticRate: largest group of bodies in contact that the haptic thread moves
 };
 
 /// A goal of an assembly: a target pose and the bodies that may fill it.
 struct AssemblyGoal {
-  std::string name;
+  std::string name;                  ///< unique among the goals (E203)
   std::vector<std::size_t> bodies;   ///< indices into Scene::bodies; any one of them fits
   Pose X_WB;                         ///< target pose of the body
   std::size_t fold = 1;              ///< order of rotational symmetry about the body's z axis (n-fold; 0: continuous)
@@ -187,12 +204,13 @@ struct Assembly {
   double snap_force = 1.5;         ///< maximum snap force, in multiples of the body's weight on Earth [-]
   /// Workspace, an axis-aligned box in W: a body that leaves it is brought back. None: unlimited.
   struct Workspace {
-    Vec3 centre = Vec3::Zero(), size = Vec3::Zero();  ///< [m]
+    Vec3 centre = Vec3::Zero(),  ///< [m]
+        size = Vec3::Zero();     ///< full edge lengths [m]
   };
-  std::optional<Workspace> workspace;
-  std::vector<AssemblyGoal> goals;
-  AssemblyWords words;
-  double elapsed = 0;  ///< assembly time carried over from earlier runs [s]
+  std::optional<Workspace> workspace;  ///< none: unlimited
+  std::vector<AssemblyGoal> goals;     ///< in document order
+  AssemblyWords words;                 ///< shown to the user
+  double elapsed = 0;                  ///< assembly time carried over from earlier runs [s]
 };
 
 /// Where a run's state is published for viewers (framework/bus).
@@ -202,96 +220,112 @@ struct BusSettings {
   bool commands = false;             ///< accept commands that set parameters of the run
   std::string keys{};                ///< folder with this process's certificate (presa bus keys); empty: no security
 };
-inline constexpr int kMinBusDomain = 0, kMaxBusDomain = 200;
+inline constexpr int kMinBusDomain = 0,  ///< of BusSettings::domain
+    kMaxBusDomain = 200;                 ///< the same
 /// Whether `network` is a valid value of BusSettings::network.
 bool isBusNetwork(const std::string& network);
 
+/// One scene file, resolved.
 struct Scene {
-  std::string name;
-  std::string description;
-  std::string file;           ///< path as given by the user
-  std::string default_rig;    ///< resolved path, may be empty
-  Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
-  Rates rates;
-  HapticSettings haptics;
-  CollisionSettings collision;
-  DynamicsSettings dynamics;
-  std::vector<Material> materials;
-  std::vector<Body> bodies;
-  std::vector<Joint> joints;
-  std::vector<DeviceRole> devices;
-  std::optional<Assembly> assembly;
+  std::string name;                            ///< attribute of the root element
+  std::string description;                     ///< one or two sentences; may be empty
+  std::string file;                            ///< path as given by the user
+  std::string default_rig;                     ///< resolved path, may be empty
+  Vec3 gravity{0, 0, -9.81};                   ///< [m/s^2]
+  Rates rates;                                 ///< of the groups [Hz]
+  HapticSettings haptics;                      ///< rendering of contacts with fingers
+  CollisionSettings collision;                 ///< query of the collision thread
+  DynamicsSettings dynamics;                   ///< motion of free bodies
+  std::vector<Material> materials;             ///< indices: Body::material
+  std::vector<Body> bodies;                    ///< indices as in ObjectState::bodies
+  std::vector<Joint> joints;                   ///< in document order
+  std::vector<DeviceRole> devices;             ///< indices as in DeviceState::fingers
+  std::optional<Assembly> assembly;            ///< none: no task
   std::vector<PluginElement> plugin_elements;  ///< in document order
-  std::optional<BusSettings> bus;
-  std::string resolved_xml;  ///< document after --set and defaults, as stored in recordings
+  std::optional<BusSettings> bus;              ///< none: not published, unless rig or options say so
+  std::string resolved_xml;                    ///< document after --set and defaults, as stored in recordings
 
-  bool hasForceEffects() const;
-  const Material& materialOf(const Body& body) const { return materials[body.material]; }
+  bool hasForceEffects() const;  ///< some element's plug-in is a force effect
+  const Material& materialOf(const Body& body) const { return materials[body.material]; }  ///< of this scene's bodies
   /// Whether some touchable material has changed_friction and the renderer supports friction.
   bool surfacesChange() const;
 };
 
-inline constexpr const char* kWorldFrame = "world";
+inline constexpr const char* kWorldFrame = "world";  ///< Frame::parent: W itself
 
 /// A frame of a rig, such as a desk, a user who walks, or a head.
 struct Frame {
+  /// A pose of a frame on its way.
   struct Key {
     double time = 0;  ///< [s]
     Pose X_PF;        ///< relative to Frame::X_PF
   };
+  /// What a user may do with the frame.
   enum class Moves { kNot, kWalk, kFly };
   /// A button that the user holds; none: only the window's key does it.
   struct Button {
     std::optional<int> number{};  ///< bit of FingerInput::buttons
-    SourceLocation where;
+    SourceLocation where;         ///< in the rig
   };
+  /// Scale of a frame, which its user changes with two buttons.
   struct Zoom {
-    double min = 1, max = 1;  ///< metres of the parent for one of the frame
-    double rate = 2;          ///< factor per second while a button is held
-    Button in, out;           ///< smaller and larger scale: what the hand does becomes finer, coarser
+    double min = 1,   ///< metres of the parent for one of the frame
+        max = 1;      ///< metres of the parent for one of the frame
+    double rate = 2;  ///< factor per second while a button is held
+    Button in,        ///< smaller scale: what the hand does becomes finer
+        out;          ///< larger scale: what the hand does becomes coarser
   };
-  std::string name;
+  std::string name;                ///< unique among frames and roles of the rig
   std::string parent;              ///< kWorldFrame, a frame, or a role: then the frame moves with that role's tool
   Pose X_PF;                       ///< in the parent
   std::vector<Key> keys;           ///< minimum-jerk from one to the next; empty: fixed
   Moves moves = Moves::kNot;       ///< what its user may do with it: on its level plane and about z, or also along z
-  double speed = 1, turn = 1;      ///< of a user who moves it [m/s], [rad/s]
+  double speed = 1,                ///< of a user who moves it [m/s]
+      turn = 1;                    ///< of a user who turns it [rad/s]
   Vec3 drift = Vec3::Zero();       ///< velocity with which it moves by itself, in its own axes [m/s]
   std::optional<Button> clutch{};  ///< while held, the frame slides back under the hand
-  std::optional<Zoom> zoom{};
+  std::optional<Zoom> zoom{};      ///< none: the scale is 1
   /// Whether more than time moves it. Such a frame rests while a finger that stands in it feels a force.
   bool driven() const { return moves != Moves::kNot || clutch || zoom || !drift.isZero(); }
 };
 
 /// One role bound to a driver, with the driver's own settings.
 struct DeviceBinding {
+  /// Value of one setting.
   struct Setting {
-    std::string value;
-    SourceLocation where;
+    std::string value;     ///< as written, or an absolute path
+    SourceLocation where;  ///< in the rig
   };
-  std::string role;
+  std::string role;                         ///< DeviceRole::role
   std::string driver;                       ///< folder name under devices/
   std::string frame = kWorldFrame;          ///< in which the driver's samples and forces are, as Frame::parent
-  std::map<std::string, Setting> settings;  ///< <set key= value=/>; the driver checks keys and values
+  std::map<std::string, Setting> settings;  ///< `<set key= value=/>`; the driver checks keys and values
   /// Limits of this installation, beside those of the scene. Absent values: the driver's rating applies.
   struct Limits {
-    std::optional<double> force, force_rate, soft_start, continuous, speed;       ///< [N] [N/s] [s] [N] [m/s]
-    std::optional<double> torque, torque_rate, continuous_torque, angular_speed;  ///< [N m] [N m/s] [N m] [rad/s]
+    std::optional<double> force,    ///< max magnitude [N]
+        force_rate,                 ///< max slew [N/s]
+        soft_start,                 ///< from zero to the full force [s]
+        continuous,                 ///< rating of warm motors [N]
+        speed;                      ///< of the fingertip, max [m/s]
+    std::optional<double> torque,   ///< max magnitude [N m]
+        torque_rate,                ///< max slew [N m/s]
+        continuous_torque,          ///< rating of warm motors [N m]
+        angular_speed;              ///< of the tool, max [rad/s]
     bool records_overload = false;  ///< exceeding `continuous` is recorded as an event instead of being limited
     bool passivity = false;         ///< passivity control: no net energy to the hand
   };
-  Limits limits;
-  SourceLocation where;
+  Limits limits;         ///< absent in the rig: none of its own
+  SourceLocation where;  ///< its element in the rig
 };
 
 /// The devices of one laboratory. Scenes are portable; the rig describes one installation.
 struct Rig {
-  std::string name;
-  std::string file;
-  std::optional<BusSettings> bus;  ///< takes precedence over the scene's
-  std::vector<DeviceBinding> devices;
-  std::vector<Frame> frames;
-  std::string resolved_xml;
+  std::string name;                    ///< of the root element
+  std::string file;                    ///< path as given by the user
+  std::optional<BusSettings> bus;      ///< takes precedence over the scene's
+  std::vector<DeviceBinding> devices;  ///< one for each role that it serves
+  std::vector<Frame> frames;           ///< in document order
+  std::string resolved_xml;            ///< document with defaults, as stored in recordings
 };
 
 }  // namespace presa

@@ -8,11 +8,11 @@
 namespace presa {
 
 /// One thing that a scene or its run calls for, in the word that manifests of modules use:
-/// <wanted when="fingers touchable_mesh"/>.
+/// `<wanted when="fingers touchable_mesh"/>`.
 struct SceneFact {
-  std::string name;  ///< "free_body"
-  bool holds = false;
-  std::string why;  ///< why it holds, or why it does not: "body 'cube' is free", "every body is fixed"
+  std::string name;    ///< "free_body"
+  bool holds = false;  ///< in this run
+  std::string why;     ///< why it holds, or why it does not: "body 'cube' is free", "every body is fixed"
 };
 
 /// All facts of a run, in the order of factNames(). Thread: any.

@@ -12,7 +12,7 @@ namespace presa {
 
 /// The document format this release reads.
 inline constexpr int kFormatMajor = 1;
-inline constexpr int kFormatMinor = 0;
+inline constexpr int kFormatMinor = 0;  ///< the second number of the format
 /// The major version must match; a newer minor version gives a warning. `kind`: "scene" or "rig"; `code`: number to
 /// report.
 void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics);
@@ -26,33 +26,33 @@ inline std::optional<double> optionalNumber(const xml::Element& element, const s
 /// `path` relative to `directory`, made absolute and normalised; "" stays "".
 std::string resolvePath(const std::string& path, const std::string& directory);
 
-/// Copies what the files of <include> elements hold in front of these elements (E273 to E275). Files are read only on
+/// Copies what the files of `<include>` elements hold in front of these elements (E273 to E275). Files are read only on
 /// behalf of a document that was a file itself: `from_file`.
 void expandIncludes(xml::Document& document, bool from_file, Diagnostics& diagnostics);
-/// Takes the <include> elements themselves out, after they have been validated.
+/// Takes the `<include>` elements themselves out, after they have been validated.
 void removeIncludes(const xml::Element& root);
 /// Writes each override into the document; an unknown path is error E202.
 void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, const std::vector<Override>& overrides,
                     Diagnostics& diagnostics);
-/// Writes the coefficient of each <friction preset="…"> in its place; E236 beside a static one.
+/// Writes the coefficient of each `<friction preset="…">` in its place; E236 beside a static one.
 void resolveFrictionPresets(const xml::Element& root, Diagnostics& diagnostics);
 /// Reads a resolved document without errors into plain data.
 Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
 /// Checks rules that a schema cannot express: references, and values that depend on each other (E2xx).
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);
-/// Checks <assembly>: the bodies and goals it refers to, and whether the goals can be filled in some order.
+/// Checks `<assembly>`: the bodies and goals it refers to, and whether the goals can be filled in some order.
 void checkAssembly(const xml::Element& root, Diagnostics& diagnostics);
 /// Warns about values that can be simulated, but are hardly meant: outside of the ranges in CONTRIBUTING.md (W227).
 void checkSaneRanges(const xml::Element& element, Diagnostics& diagnostics);
-/// Checks the <words> of an assembly or of a separate file: duplicate elements (E203), unknown placeholders (E219).
+/// Checks the `<words>` of an assembly or of a separate file: duplicate elements (E203), unknown placeholders (E219).
 void checkWords(const xml::Element& words, Diagnostics& diagnostics);
-/// Reads <words> from a document with written defaults.
+/// Reads `<words>` from a document with written defaults.
 AssemblyWords readWords(const xml::Element& words);
 /// Reports two orientations on one element (E211) and a zero quaternion (E212).
 void checkOrientation(const xml::Element& element, Diagnostics& diagnostics);
 /// Pose of an element with attributes pos, euler_deg, quat.
 Pose readPose(const xml::Element& element);
-/// Checks the <frame>s of a rig and what stands in them (E416 to E419).
+/// Checks the `<frame>` elements of a rig and what stands in them (E416 to E419).
 void checkFrames(const xml::Element& root, Diagnostics& diagnostics);
 /// The frames of a rig with written defaults, without errors.
 std::vector<Frame> readFrames(const xml::Element& root);
@@ -68,7 +68,7 @@ void resolvePluginFiles(const xml::Element& root, const std::string& directory);
 /// Attributes of type "file" of the element that have a value.
 std::vector<std::string> filesNamedBy(const PluginElement& element);
 
-/// The <bus> of a scene or a rig, or none.
+/// The `<bus>` of a scene or a rig, or none.
 std::optional<BusSettings> readBus(const xml::Element& root);
 /// E751: a scene may come from an untrusted source. It may publish on this machine, but neither open the network nor
 /// take commands.

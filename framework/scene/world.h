@@ -12,13 +12,15 @@ struct Model;  // framework/geometry/model.h
 
 /// A mesh cut into convex pieces.
 struct ConvexPieces {
-  std::vector<std::shared_ptr<const TriMesh>> pieces;
+  std::vector<std::shared_ptr<const TriMesh>> pieces;  ///< convex, closed
   double error = 0;  ///< Hausdorff distance between the mesh and the union of the pieces, as solids [m]
 };
 
 /// Meshes of one body; null where the geometry is a primitive or absent.
 struct BodyMeshes {
-  std::shared_ptr<const TriMesh> visual, haptic, physics;
+  std::shared_ptr<const TriMesh> visual,                ///< drawn
+      haptic,                                           ///< felt by fingers
+      physics;                                          ///< met by other bodies
   std::shared_ptr<const MeshTree> haptic_tree;          ///< hierarchy over `haptic`; null when no finger can touch it
   std::vector<std::shared_ptr<const TriMesh>> parts{};  ///< physics, of a Compound: by part; else empty
   std::vector<ConvexPieces> decomposed{};  ///< physics, by shape, no pieces: as it is; empty: none is decomposed
@@ -27,15 +29,15 @@ struct BodyMeshes {
 
 /// Mass [kg], centre of mass in the body frame [m], inertia about it in body axes [kg m^2]. Zero mass: fixed body.
 struct BodyInertia {
-  double mass = 0;
-  Vec3 p_BCm = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();
+  double mass = 0;              ///< [kg]; 0: a fixed body
+  Vec3 p_BCm = Vec3::Zero();    ///< centre of mass [m]
+  Mat3 inertia = Mat3::Zero();  ///< about p_BCm, in body axes [kg m^2]
 };
 
 /// The scene with its meshes loaded and its masses computed. Constant during a run, shared by all modules and threads.
 struct World {
-  Scene scene;
-  Rig rig;
+  Scene scene;                        ///< as loaded
+  Rig rig;                            ///< as loaded
   std::vector<BodyMeshes> meshes;     ///< as Scene::bodies
   std::vector<BodyInertia> inertias;  ///< as Scene::bodies
 };

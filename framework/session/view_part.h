@@ -13,10 +13,10 @@ namespace presa {
 
 /// One moment of a run, for what is drawn in it.
 struct ViewMoment {
-  double time;                    ///< [s]
-  const std::vector<Pose>& X_WB;  ///< in the order of Scene::bodies
-  const DeviceState& device;      ///< measured fingertips
-  const ContactExchange& contacts;
+  double time;                      ///< [s]
+  const std::vector<Pose>& X_WB;    ///< in the order of Scene::bodies
+  const DeviceState& device;        ///< measured fingertips
+  const ContactExchange& contacts;  ///< of the fingertips with bodies
 };
 
 /// What a part of the picture draws with. World frame, metres; colours are linear RGB, 0 to 1.
@@ -43,14 +43,15 @@ class ViewPart {
 
 /// Table of a plug-in of kind view_part (framework/scene/manifest.h).
 struct ViewPartPlugin {
-  int abi = kPluginAbi;
-  const char* name;  ///< as in the manifest
+  int abi = kPluginAbi;  ///< leave it as it is: another version is refused (E510)
+  const char* name;      ///< as in the manifest
   /// May throw (E596). The world stays alive as long as the part.
   std::unique_ptr<ViewPart> (*create)(const PluginElement& element, const World& world);
 };
 
 }  // namespace presa
 
+/// Exports `table`, a ViewPartPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_VIEW_PART_PLUGIN(table)                                                                    \
   extern "C" __attribute__((visibility("default"))) const presa::ViewPartPlugin* presaViewPartPlugin() { \
     return &(table);                                                                                     \

@@ -17,8 +17,8 @@ namespace presa {
 /// Guards nest; each counts from its own construction. Construct and read a guard on one thread.
 class RealTimeGuard {
  public:
-  RealTimeGuard() noexcept;
-  ~RealTimeGuard();
+  RealTimeGuard() noexcept;  ///< from now on calls count
+  ~RealTimeGuard();          ///< to here
   RealTimeGuard(const RealTimeGuard&) = delete;
   RealTimeGuard& operator=(const RealTimeGuard&) = delete;
 

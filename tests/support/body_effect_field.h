@@ -6,8 +6,8 @@
 
 namespace presa::test {
 
-/// One body effect on a free cube, without a run: its wrench at any place and speed. The element is read like any scene's, with the
-/// plug-in's manifest:
+/// One body effect on a free cube, without a run: its wrench at any place and speed. The element is read like any
+/// scene's, with the plug-in's manifest:
 ///
 ///     BodyEffectField field("<drag max_force=\"2\" linear=\"0.5\"/>");
 ///     EXPECT_LT(field.at({.v_WCm = Vec3(1, 0, 0)}).f_W.x(), 0);
@@ -19,10 +19,10 @@ class BodyEffectField {
   explicit BodyEffectField(const std::string& element);
   ~BodyEffectField();
 
-  /// The wrench at this state; `body`, `step`, mass, inertia and gravity are those of the cube. Zero after the effect broke its
-  /// contract. Nonblocking if the effect is: put a RealTimeGuard around it.
+  /// The wrench at this state; `body`, `step`, mass, inertia and gravity are those of the cube. Zero after the effect
+  /// broke its contract. Nonblocking if the effect is: put a RealTimeGuard around it.
   BodyEffectWrench at(BodyEffectInput state) noexcept;
-  bool broken() const noexcept;
+  bool broken() const noexcept;  ///< the effect broke its contract
 
  private:
   struct Parts;

@@ -17,8 +17,11 @@ namespace presa::test {
 /// one fingertip.
 class DrawnPart {
  public:
+  /// One Canvas::line.
   struct Line {
-    Vec3 p_WA, p_WB, color;
+    Vec3 p_WA,  ///< one end [m]
+        p_WB,   ///< other end [m]
+        color;  ///< linear RGB, 0 to 1
   };
 
   /// Throws InputError with every finding.

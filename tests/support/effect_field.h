@@ -26,8 +26,8 @@ class EffectField {
   Vec3 force(const Vec3& p_WT, const Vec3& v_WT = Vec3::Zero()) noexcept;
   /// Force and torque on a tool about its centre, for an effect that gives a torque. As force().
   Wrench wrench(const FingerInput& tool) noexcept;
-  /// Impulse given to the cube by all calls of force() and wrench() so far, each of 1 ms [N s]. Zero for an effect of the
-  /// scene.
+  /// Impulse given to the cube by all calls of force() and wrench() so far, each of 1 ms [N s]. Zero for an effect of
+  /// the scene.
   Vec3 impulse() const noexcept;
   /// The same about the cube's centre [N m s].
   Vec3 angularImpulse() const noexcept;

@@ -13,8 +13,10 @@ namespace presa::test {
 ///     EXPECT_LT(track.slide({0.1, 0, 0}).x(), 0);
 class FrictionTrack {
  public:
+  /// Constant values of the contact.
   struct Contact {
-    double mu_static = 0.8, mu_dynamic = 0.6;
+    double mu_static = 0.8,   ///< of the material [-]
+        mu_dynamic = 0.6;     ///< of the material [-]
     double normal_force = 1;  ///< [N]
     double stiffness = 1000;  ///< of the surface [N/m]
     double period = 1e-3;     ///< [s]
@@ -23,13 +25,13 @@ class FrictionTrack {
   FrictionTrack(const std::string& element, const Contact& contact);
   ~FrictionTrack();
 
-  /// One tick in which the finger slides with that tangential velocity [m/s]. Returns the force on the finger [N]; NaN if
-  /// the law's answer breaks its contract (framework/haptics/friction_law.h).
+  /// One tick in which the finger slides with that tangential velocity [m/s]. Returns the force on the finger [N]; NaN
+  /// if the law's answer breaks its contract (framework/haptics/friction_law.h).
   /// Nonblocking if the law is: put a RealTimeGuard around it.
   Vec3 slide(const Vec3& velocity) noexcept;
   /// The same at another normal force from now on [N].
   void press(double normal_force) noexcept;
-  bool slipping() const noexcept;
+  bool slipping() const noexcept;  ///< FrictionAnswer::slipping of the last tick
 
  private:
   struct Parts;

@@ -19,8 +19,8 @@ class LockstepRun {
   double rise(const std::string& body) const;
   /// Largest normal force on the fingertip of that role [N]. Throws std::out_of_range for an unknown role.
   double maxNormalForce(const std::string& role) const;
-  /// What must not happen, in sentences: an effect that broke its contract, a fault of the dynamics, a fingertip that went
-  /// through a surface.
+  /// What must not happen, in sentences: an effect that broke its contract, a fault of the dynamics, a fingertip that
+  /// went through a surface.
   const std::vector<std::string>& faults() const noexcept;
 
  private:

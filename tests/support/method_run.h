@@ -31,7 +31,7 @@ class MethodRun {
   void answer(const Responder& positive);
   /// The levels presented so far, in order.
   std::vector<double> levels() const;
-  psychophysics::Method& method() noexcept { return *method_; }
+  psychophysics::Method& method() noexcept { return *method_; }  ///< to answer it by hand
 
   /// Whether a fresh method that gets the answers so far presents the same trials: then a session can be resumed.
   bool resumes() const;

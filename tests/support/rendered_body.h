@@ -6,16 +6,16 @@
 
 namespace presa::test {
 
-/// A fingertip of 8 mm that feels a fixed body of 1000 N/m at the origin, by one renderer and the body's surface effects,
-/// without friction and without a run. The elements are read like any scene's, with the plug-ins' manifests:
+/// A fingertip of 8 mm that feels a fixed body of 1000 N/m at the origin, by one renderer and the body's surface
+/// effects, without friction and without a run. The elements are read like any scene's, with the plug-ins' manifests:
 ///
 ///     RenderedBody box("<haptics renderer=\"god_object\"/>", "<box size=\"0.1 0.1 0.1\"/>");
 ///     box.force({0, 0, 0.1});
 ///     EXPECT_NEAR(box.force({0, 0, 0.057}).z(), 1, 1e-9);
 class RenderedBody {
  public:
-  /// `haptics`: the scene's <haptics>, or empty; `shape`: the haptic geometry of the body; `effects`: surface effects of
-  /// the body; `material_effects`: of its material. Throws InputError with every finding.
+  /// `haptics`: the scene's `<haptics>`, or empty; `shape`: the haptic geometry of the body; `effects`: surface effects
+  /// of the body; `material_effects`: of its material. Throws InputError with every finding.
   RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects = {},
                const std::string& material_effects = {});
   ~RenderedBody();

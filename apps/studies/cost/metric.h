@@ -9,10 +9,10 @@ namespace presa::cost {
 
 /// An error metric in units that a person can judge.
 struct Metric {
-  std::string name;   ///< name for --metric
-  std::string title;  ///< such as "Force, RMS error"
-  std::string unit;
-  std::string meaning;
+  std::string name;     ///< name for --metric
+  std::string title;    ///< such as "Force, RMS error"
+  std::string unit;     ///< such as "N"
+  std::string meaning;  ///< definition in words, for reports
   /// The error of a setting; no value when the metric does not apply to the scene. Absolute metrics ignore the
   /// reference.
   std::optional<double> (*error)(const Evidence& setting, const Evidence& reference) = nullptr;
@@ -25,8 +25,8 @@ struct Metric {
 /// --metric NAME; errors of settings and just-noticeable differences are then drawn and compared like those of its own.
 /// Thread: main.
 struct MetricPlugin {
-  int abi = kPluginAbi;
-  Metric metric;  ///< its name is that of the manifest
+  int abi = kPluginAbi;  ///< leave it as it is: another version is refused (E510)
+  Metric metric;         ///< its name is that of the manifest
 };
 
 /// Weber fraction of force [Pang1991, Jones1992: 7 to 10 %].
@@ -36,6 +36,7 @@ inline constexpr double kMinForce = 0.5;
 
 }  // namespace presa::cost
 
+/// Exports `table`, a MetricPlugin that lives as long as the library. Once in a plug-in, outside of namespaces.
 #define PRESA_METRIC_PLUGIN(table)                                                                         \
   extern "C" __attribute__((visibility("default"))) const presa::cost::MetricPlugin* presaMetricPlugin() { \
     return &(table);                                                                                       \

@@ -3,14 +3,16 @@
 
 namespace presa::psychophysics {
 
+/// Of a level: that of the value; the natural logarithm of value / standard; 20 log10(value / standard) [dB].
 enum class Unit { kLinear, kLnRatio, kDecibel };
 
 /// Converts between the level, on which a method steps, and the value that the scene takes. On the last two units equal
 /// steps are equal ratios (PsychoPy's stepType log and db with standard 1; its log has base 10, ours base e).
 struct Axis {
-  Unit unit = Unit::kLinear;
-  double standard = 0;  ///< value at level 0; > 0 unless linear
+  Unit unit = Unit::kLinear;  ///< of levels
+  double standard = 0;        ///< value at level 0; > 0 unless linear
 
+  /// Value of a level; the inverse of levelAt.
   double valueAt(double level) const {
     switch (unit) {
       case Unit::kLinear:

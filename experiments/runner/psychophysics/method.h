@@ -11,6 +11,7 @@
 /// given to a method. Thread: any, one at a time.
 namespace presa::psychophysics {
 
+/// What a presentation is for.
 enum class TrialKind {
   kTest,
   kCatch,       ///< attention check: moves no staircase, ignored by fits
@@ -19,12 +20,12 @@ enum class TrialKind {
 
 /// One presentation, as requested by the method.
 struct Stimulus {
-  double level = 0;        ///< on the method's axis; negative: below the standard
-  std::size_t trial = 0;   ///< number of presentations before this one, discarded ones included
-  std::size_t track = 0;   ///< index of the staircase or constant level; catch trials: one past the last
-  int standard_place = 0;  ///< interval or side of the standard, 1 or 2; 0: no standard in this task
-  TrialKind kind = TrialKind::kTest;
-  bool operator==(const Stimulus&) const = default;
+  double level = 0;                   ///< on the method's axis; negative: below the standard
+  std::size_t trial = 0;              ///< number of presentations before this one, discarded ones included
+  std::size_t track = 0;              ///< index of the staircase or constant level; catch trials: one past the last
+  int standard_place = 0;             ///< interval or side of the standard, 1 or 2; 0: no standard in this task
+  TrialKind kind = TrialKind::kTest;  ///< what the answer is used for
+  bool operator==(const Stimulus&) const = default;  ///< exact
 };
 
 /// One answer. Each task uses one field and ignores the others.
@@ -32,14 +33,14 @@ struct Response {
   bool positive = false;  ///< "yes", "correct" or "greater", by the method's coding; ForcedChoice derives it
   int chosen = 0;         ///< forced choice: 1 first, left, yes; 2 second, right, no
   double value = 0;       ///< adjustment: the level that was set
-  bool operator==(const Response&) const = default;
+  bool operator==(const Response&) const = default;  ///< exact
 };
 
 /// One entry of the log. The log is the only memory of a method.
 struct Trial {
-  Stimulus stimulus;
-  std::optional<Response> response;  ///< none: discarded (interrupted or spoilt), to be presented again
-  bool operator==(const Trial&) const = default;
+  Stimulus stimulus;                              ///< as it was presented
+  std::optional<Response> response;               ///< none: discarded (interrupted or spoilt), to be presented again
+  bool operator==(const Trial&) const = default;  ///< exact
 };
 
 /// Meaning of a positive answer.
@@ -56,7 +57,7 @@ class Method {
 
   /// The trial to present now; none when the method has finished.
   const std::optional<Stimulus>& next() const noexcept { return next_; }
-  bool finished() const noexcept { return !next_; }
+  bool finished() const noexcept { return !next_; }  ///< next() is none
   /// Answers `next()`. Throws std::logic_error when finished, std::invalid_argument for an invalid answer.
   void respond(const Response& response);
   /// Discards `next()` without an answer. It is presented again, at once or later in the method's order.
@@ -68,11 +69,11 @@ class Method {
   virtual Response responseFor(bool positive) const { return {.positive = positive}; }
 
  protected:
-  Method() = default;
-  Method(const Method&) = default;
-  Method(Method&&) = default;
-  Method& operator=(const Method&) = default;
-  Method& operator=(Method&&) = default;
+  Method() = default;                          ///< finished until start()
+  Method(const Method&) = default;             ///< for derived classes alone
+  Method(Method&&) = default;                  ///< for derived classes alone
+  Method& operator=(const Method&) = default;  ///< for derived classes alone
+  Method& operator=(Method&&) = default;       ///< for derived classes alone
 
   /// To be called last in each derived constructor.
   void start() { offer(choose()); }

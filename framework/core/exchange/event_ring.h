@@ -13,7 +13,7 @@ namespace presa {
 template <PlainData T>
 class EventRing {
  public:
-  explicit EventRing(std::size_t capacity) : queue_(capacity) {}
+  explicit EventRing(std::size_t capacity) : queue_(capacity) {}  ///< room for `capacity` events
 
   /// Writer: wait-free; false, and the event is counted as dropped, when the ring is full.
   bool push(const T& event) noexcept {
@@ -24,7 +24,7 @@ class EventRing {
   /// Reader: takes the oldest event; false when there is none.
   bool pop(T& event) noexcept { return queue_.pop(event); }
 
-  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }  ///< refused; any thread
 
  private:
   boost::lockfree::spsc_queue<T> queue_;

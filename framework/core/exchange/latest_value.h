@@ -33,7 +33,7 @@ concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
 template <ExchangedData T>
 class LatestValue {
  public:
-  LatestValue() = default;
+  LatestValue() = default;  ///< of default values T
   /// Before either thread uses it; `sized` has the size of the values that publish() will get.
   explicit LatestValue(const T& sized) {
     for (Slot& slot : slots_) slot.value = sized;
@@ -58,8 +58,8 @@ class LatestValue {
 
   /// Reader: the value last taken. Before the first: version 0 and the initial value (a default T or `sized`).
   const T& value() const noexcept { return slots_[read_].value; }
-  std::uint64_t version() const noexcept { return slots_[read_].version; }
-  double time() const noexcept { return slots_[read_].time; }
+  std::uint64_t version() const noexcept { return slots_[read_].version; }  ///< reader: counted by the writer from 1
+  double time() const noexcept { return slots_[read_].time; }               ///< reader: the writer's [s]
 
  private:
   static constexpr std::uint8_t kNew = 4;

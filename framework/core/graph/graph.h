@@ -12,28 +12,29 @@ namespace presa {
 /// One link from an output port to an input port. Within a rate group the reader sees the writer's value in
 /// place; across groups the value goes through a bridge.
 struct Connection {
-  const OutPortBase* from = nullptr;
-  const InPortBase* to = nullptr;
-  BridgeBase* bridge = nullptr;  ///< null within a rate group
+  const OutPortBase* from = nullptr;  ///< writer's port
+  const InPortBase* to = nullptr;     ///< reader's port
+  BridgeBase* bridge = nullptr;       ///< null within a rate group
 };
 
 /// The frozen graph: modules in step order and their connections. Made by GraphBuilder only. Functions that
 /// take a group are called on the one thread that runs this group; step and replayStep do not block.
 class Graph {
  public:
-  const std::vector<Connection>& connections() const noexcept { return connections_; }
+  const std::vector<Connection>& connections() const noexcept { return connections_; }  ///< by the reader's port name
   /// Modules of one group in step order.
   const std::vector<Module*>& modules(RateGroup group) const noexcept { return groupOf(group).modules; }
-  bool runs(RateGroup group) const noexcept { return !groupOf(group).modules.empty(); }
-  Module* find(const std::string& name) const noexcept;
+  bool runs(RateGroup group) const noexcept { return !groupOf(group).modules.empty(); }  ///< the group has modules
+  Module* find(const std::string& name) const noexcept;                                  ///< null: none has that name
 
-  void start(RateGroup group);
+  void start(RateGroup group);  ///< Module::start() of the group's modules in step order; throws what they throw
   /// Pulls the group's inputs, steps its modules in order and publishes their outputs.
   /// `row`, when given, receives the versions that were read.
   void step(RateGroup group, const Tick& tick, ScheduleRow* row = nullptr) noexcept;
-  void stop(RateGroup group);
+  void stop(RateGroup group);  ///< Module::stop() in reverse order: readers before their writers
   /// The parts of step(), for measuring: pull the group's inputs, then step modules(group)[i] and publish its outputs.
   void pull(RateGroup group) noexcept;
+  /// Call pull() before the first one.
   void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
 
   /// Names of the values that each group reads across rates, in the order of ScheduleRow::versions.

@@ -19,28 +19,29 @@ enum class WhenOld { kHold, kExtrapolate, kFadeToZero };
 class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
-  virtual void addReader(InPortBase& reader) = 0;
+  virtual void addReader(InPortBase& reader) = 0;  ///< before the run: `reader`, of the same type, shows what is pulled
   /// Reader's thread, before its group's step: takes the latest value; returns its version (0: none yet).
   virtual std::uint64_t pull() noexcept = 0;
   /// Writer's thread, after its module's step: publishes the output with the tick's simulated time [s].
   virtual void push(double time) noexcept = 0;
   /// Replay only: keepHistory keeps published values in about `bytes`, pullVersion reads one of them; false: not there.
   virtual void keepHistory(std::size_t bytes) = 0;
-  virtual bool pullVersion(std::uint64_t version) noexcept = 0;
+  virtual bool pullVersion(std::uint64_t version) noexcept = 0;  ///< in place of pull(); version 0 changes nothing
 };
 
+/// Output port of any type; registers with its module.
 class OutPortBase {
  public:
-  OutPortBase(Module& owner, std::string name, std::type_index type);
+  OutPortBase(Module& owner, std::string name, std::type_index type);  ///< `name`: see connectByName
   virtual ~OutPortBase() = default;
-  const Module& owner() const noexcept { return owner_; }
-  const std::string& name() const noexcept { return name_; }
-  std::type_index type() const noexcept { return type_; }
+  const Module& owner() const noexcept { return owner_; }     ///< module that writes it
+  const std::string& name() const noexcept { return name_; }  ///< unique, or connected by hand (E504)
+  std::type_index type() const noexcept { return type_; }     ///< of the value; both ends agree (E502)
 
  protected:
   friend class GraphBuilder;
-  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;
-  virtual void connectDirect(InPortBase& reader) = 0;
+  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;  ///< for GraphBuilder: slots of the value's present size
+  virtual void connectDirect(InPortBase& reader) = 0;    ///< for GraphBuilder: `reader` sees the value in place
 
  private:
   Module& owner_;
@@ -48,30 +49,31 @@ class OutPortBase {
   std::type_index type_;
 };
 
+/// Input port of any type; registers with its module.
 class InPortBase {
  public:
+  /// Registers with `owner`; `name` is that of the output; `old_after` is an age [s].
   InPortBase(Module& owner, std::string name, std::type_index type, bool optional, WhenOld when_old, double old_after);
   virtual ~InPortBase() = default;
-  const Module& owner() const noexcept { return owner_; }
-  const std::string& name() const noexcept { return name_; }
-  std::type_index type() const noexcept { return type_; }
-  bool optional() const noexcept { return optional_; }
-  WhenOld whenOld() const noexcept { return when_old_; }
-  /// Age above which the value counts as old [s].
-  double oldAfter() const noexcept { return old_after_; }
-  bool connected() const noexcept { return connected_; }
-  bool ofLastTick() const noexcept { return of_last_tick_; }
+  const Module& owner() const noexcept { return owner_; }     ///< module that reads it
+  const std::string& name() const noexcept { return name_; }  ///< that of its output, for connectByName
+  std::type_index type() const noexcept { return type_; }     ///< of the value; both ends agree (E502)
+  bool optional() const noexcept { return optional_; }        ///< may stay unconnected; others: E501
+  WhenOld whenOld() const noexcept { return when_old_; }      ///< the reader's declared policy
+  double oldAfter() const noexcept { return old_after_; }     ///< age above which the value counts as old [s]
+  bool connected() const noexcept { return connected_; }      ///< GraphBuilder::connect found its writer
+  bool ofLastTick() const noexcept { return of_last_tick_; }  ///< feedback, see In::OfLastTick
 
  protected:
   friend class GraphBuilder;
-  Module& owner_;
-  std::string name_;
-  std::type_index type_;
-  bool optional_;
-  WhenOld when_old_;
-  double old_after_;
-  bool connected_ = false;
-  bool of_last_tick_ = false;
+  Module& owner_;              ///< as by owner()
+  std::string name_;           ///< as by name()
+  std::type_index type_;       ///< as by type()
+  bool optional_;              ///< as by optional()
+  WhenOld when_old_;           ///< as by whenOld()
+  double old_after_;           ///< as by oldAfter() [s]
+  bool connected_ = false;     ///< as by connected(); set by GraphBuilder
+  bool of_last_tick_ = false;  ///< as by ofLastTick()
 };
 
 template <ExchangedData T>
@@ -82,27 +84,30 @@ class Out;
 template <ExchangedData T>
 class In final : public InPortBase {
  public:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static constexpr double kNever = std::numeric_limits<double>::infinity();  ///< no value counts as old
+  /// A required input (E501); `old_after` is an age [s].
   In(Module& owner, std::string name, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
       : InPortBase(owner, std::move(name), typeid(T), false, when_old, old_after) {}
-  struct Optional {};
+  struct Optional {};  ///< selects the constructor of an input that may stay unconnected
+  /// An input that may stay unconnected: value() is then a default T.
   In(Module& owner, std::string name, Optional, WhenOld when_old = WhenOld::kHold, double old_after = kNever)
       : InPortBase(owner, std::move(name), typeid(T), true, when_old, old_after) {}
   /// Feedback: within a group the reader steps before the writer, and sees what it wrote in the last tick.
   struct OfLastTick {};
+  /// An optional input, read as feedback.
   In(Module& owner, std::string name, OfLastTick) : In(owner, std::move(name), Optional{}) { of_last_tick_ = true; }
 
   /// Before the writer's first step: across groups a default T, within a group the output's initial value.
   const T& value() const noexcept { return *value_; }
-  const T* operator->() const noexcept { return value_; }
+  const T* operator->() const noexcept { return value_; }  ///< member of value()
   /// From build() to the end of start(): a value as large as all later ones, by which the reader may size itself.
   const T& sized() const noexcept { return *sized_; }
   /// Across groups: 0 until the first value, then its number, counted by the writer. Within a group: always 0.
   std::uint64_t version() const noexcept { return version_; }
-  bool hasValue() const noexcept { return direct_ || version_ > 0; }
+  bool hasValue() const noexcept { return direct_ || version_ > 0; }  ///< within a group: always
   /// Simulated time since the writer's tick [s]; 0 within a group.
   double age(const Tick& now) const noexcept { return direct_ ? 0.0 : now.time - time_; }
-  bool old(const Tick& now) const noexcept { return age(now) > old_after_; }
+  bool old(const Tick& now) const noexcept { return age(now) > old_after_; }  ///< no value yet: the age is now.time
 
  private:
   template <ExchangedData U>
@@ -117,6 +122,7 @@ class In final : public InPortBase {
   bool direct_ = false;
 };
 
+/// Bridge of one type: a LatestValue, or in a replay the values kept by keepHistory().
 template <ExchangedData T>
 class Bridge final : public BridgeBase {
  public:
@@ -177,8 +183,8 @@ class Bridge final : public BridgeBase {
 template <ExchangedData T>
 class Out final : public OutPortBase {
  public:
-  Out(Module& owner, std::string name) : OutPortBase(owner, std::move(name), typeid(T)) {}
-  T value{};
+  Out(Module& owner, std::string name) : OutPortBase(owner, std::move(name), typeid(T)) {}  ///< see connectByName
+  T value{};  ///< written in the constructor and in step() only
 
  private:
   std::unique_ptr<BridgeBase> makeBridge() override { return std::make_unique<Bridge<T>>(value); }

@@ -9,7 +9,8 @@ namespace presa {
 /// Source: [Fowler–Noll–Vo, FNV-1a 64]
 class Fnv1a {
  public:
-  constexpr void add(std::uint8_t byte) noexcept { value_ = (value_ ^ byte) * kPrime; }
+  constexpr void add(std::uint8_t byte) noexcept { value_ = (value_ ^ byte) * kPrime; }  ///< one byte
+  /// The bytes of `text`, without its length.
   constexpr void add(std::string_view text) noexcept {
     for (const char c : text) add(static_cast<std::uint8_t>(c));
   }
@@ -24,7 +25,7 @@ class Fnv1a {
     constexpr std::uint64_t kAll = power(kPrime, count);
     value_ *= kAll;
   }
-  constexpr std::uint64_t value() const noexcept { return value_; }
+  constexpr std::uint64_t value() const noexcept { return value_; }  ///< hash of all bytes so far
 
  private:
   static constexpr std::uint64_t kPrime = 0x100000001b3;

@@ -17,15 +17,15 @@ namespace presa {
 /// numbers from "stimulus noise" does not change those of "order".
 class RandomStream {
  public:
+  /// The same pair gives the same numbers.
   RandomStream(std::uint64_t seed, std::string_view name) : engine_(mix(seed ^ hashOf(name))) {}
   /// A stream of its own for one item of many, such as a subject or a trial.
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t item)
       : engine_(mix(mix(seed ^ hashOf(name)) + item)) {}
 
-  std::uint64_t bits() { return engine_(); }
-  /// In [0, 1), 53 bits.
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  std::uint64_t bits() { return engine_(); }                                          ///< 64 raw bits
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }            ///< in [0, 1), 53 bits
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }  ///< from [low, high)
   /// In [0, count), each equally likely; count > 0.
   std::uint64_t below(std::uint64_t count) {
     const std::uint64_t unfair = (0 - count) % count;  // 2^64 mod count

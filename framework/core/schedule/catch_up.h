@@ -9,7 +9,7 @@ namespace presa {
 /// Thread: the group's; nonblocking.
 class CatchUp {
  public:
-  explicit CatchUp(std::int64_t period_ns) : period_(period_ns) {}
+  explicit CatchUp(std::int64_t period_ns) : period_(period_ns) {}  ///< period of the group [ns]
 
   /// Whether the tick that begins at `now`, `late` after it was due [ns], is a catch-up tick. Call once per tick.
   bool isCatchUp(std::int64_t now, std::int64_t late) noexcept {

@@ -25,13 +25,14 @@ struct RunControl {
   std::atomic<double> time{0};              ///< simulated time reached [s]
   /// Lockstep only, after a stop request: leave at this instant of monotonicNs(), even if the fade is not over.
   std::atomic<std::int64_t> leave_by_ns{kNever};
-  static constexpr std::int64_t kNever = INT64_MAX;
+  static constexpr std::int64_t kNever = INT64_MAX;  ///< leave_by_ns: no such instant
 };
 
 /// Runs a graph for a given simulated time. Both executors step the same graph with the same ticks; they
 /// differ only in threads and clock.
 class Executor {
  public:
+  /// `graph` and `control` must outlive it.
   Executor(Graph& graph, RateTable rates, RunControl& control) : graph_(graph), rates_(rates), control_(control) {}
   virtual ~Executor() = default;
 
@@ -41,53 +42,55 @@ class Executor {
 
   /// Sets a function that run() calls on its own thread: every 100 haptic ticks in lockstep, every 20 ms in real time.
   void onPoll(std::function<void()> poll) { poll_ = std::move(poll); }
-  void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }
+  void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }  ///< null: none; call before run()
   /// Measures execution times with another clock [ns], such as threadCpuNs for studies of cost. Call before run().
   void timeBy(std::int64_t (*clock)() noexcept) noexcept { clock_ = clock; }
+  /// Execution times and delays of a group; see GroupTiming for what may be read live.
   const GroupTiming& timing(RateGroup group) const noexcept { return timings_[static_cast<std::size_t>(group)]; }
   /// Wall time from the first tick's deadline to the end of the last haptic tick [s], without start-up.
   double wallSeconds() const noexcept { return wall_seconds_; }
-  const RateTable& rates() const noexcept { return rates_; }
+  const RateTable& rates() const noexcept { return rates_; }  ///< in whole nanoseconds
   /// Real-time rights that the system refused (SCHED_FIFO, locked memory), in words for the user.
   const std::vector<std::string>& notes() const noexcept { return notes_; }
 
-  /// Simulated time from a stop request to the end: the output stage fades within it.
-  static constexpr double kFadeTime = 0.15;
+  static constexpr double kFadeTime = 0.15;  ///< simulated time from a stop request to the end: output fades in it [s]
   /// A late group runs its missed ticks at once (Tick::catch_up for all but the newest), so that simulated time follows
   /// the clock; after a stall longer than this it skips and counts them [s].
   static constexpr double kCatchUpLimit = 0.1;
-  /// After a gap longer than this, Tick::resumed is set in the group's first tick [s].
-  static constexpr double kGap = 1;
+  static constexpr double kGap = 1;  ///< after a longer gap, Tick::resumed is set in the group's first tick [s]
 
  protected:
-  struct Delay {  // of a tick, see Tick
-    bool late = false, catch_up = false, resumed = false;
+  /// Delay of a tick.
+  struct Delay {
+    bool late = false,     ///< Tick::late
+        catch_up = false,  ///< Tick::catch_up
+        resumed = false;   ///< Tick::resumed
   };
   /// One tick of one group with its timing and its row in the schedule.
   void stepTimed(RateGroup group, std::uint64_t index, Delay delay) noexcept;
 
-  Graph& graph_;
-  RateTable rates_;
-  RunControl& control_;
-  ScheduleLog* schedule_ = nullptr;
-  std::function<void()> poll_ = [] {};
-  std::int64_t (*clock_)() noexcept = monotonicNs;
-  std::array<GroupTiming, kRateGroupCount> timings_;
-  std::vector<std::string> notes_;
-  double wall_seconds_ = 0;
+  Graph& graph_;                                      ///< not owned
+  RateTable rates_;                                   ///< rates of all groups
+  RunControl& control_;                               ///< not owned; shared with the main thread
+  ScheduleLog* schedule_ = nullptr;                   ///< null: not recorded
+  std::function<void()> poll_ = [] {};                ///< by onPoll()
+  std::int64_t (*clock_)() noexcept = monotonicNs;    ///< by timeBy() [ns]
+  std::array<GroupTiming, kRateGroupCount> timings_;  ///< by RateGroup
+  std::vector<std::string> notes_;                    ///< by notes()
+  double wall_seconds_ = 0;                           ///< by wallSeconds() [s]
 };
 
 /// Runs all groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine can.
 /// Groups due at the same instant step in the order dynamics, collision, haptic, view, bus.
 class LockstepExecutor final : public Executor {
  public:
-  using Executor::Executor;
+  using Executor::Executor;  ///< as Executor's
   void run(double duration) override;
   /// The parts of run(), for a caller that acts between ticks: starts the groups for a run of `duration`; runs up to so
   /// many haptic ticks, false once the run is over; stops the groups.
   void begin(double duration);
-  bool advance(std::uint64_t ticks);
-  void finish();
+  bool advance(std::uint64_t ticks);  ///< up to `ticks` haptic ones
+  void finish();                      ///< Module::stop() in reverse order of groups
   /// Simulates stalls, for studies. `held_up` is called whenever a group is due, with the simulated time [s]; while it
   /// returns true, the group's ticks wait; then they run at once, or are skipped after kCatchUpLimit, as in real time.
   void delay(std::function<bool(RateGroup, double)> held_up) { held_up_ = std::move(held_up); }
@@ -105,7 +108,7 @@ class LockstepExecutor final : public Executor {
 /// Runs one thread per rate group with absolute deadlines; SCHED_FIFO and locked memory where the system allows it.
 class RealtimeExecutor final : public Executor {
  public:
-  using Executor::Executor;
+  using Executor::Executor;  ///< as Executor's
   void run(double duration) override;
 
  private:
@@ -114,6 +117,7 @@ class RealtimeExecutor final : public Executor {
   void loop(RateGroup group, double duration, Shared& shared);
 };
 
+/// A RealtimeExecutor or a LockstepExecutor; see Executor for the lifetimes.
 std::unique_ptr<Executor> makeExecutor(bool realtime, Graph& graph, const RateTable& rates, RunControl& control);
 
 }  // namespace presa

@@ -6,6 +6,7 @@
 
 namespace presa {
 
+/// Rates of a rig's groups, before rounding (RateTable).
 struct Rates {
   double haptic = 1000;    ///< [Hz]
   double collision = 100;  ///< [Hz], haptic / collision is a whole number
@@ -18,16 +19,15 @@ struct Rates {
 /// that the ticks of all groups fall on the instants of the haptic ticks.
 class RateTable {
  public:
-  explicit RateTable(const Rates& rates);
+  explicit RateTable(const Rates& rates);  ///< rounds: haptic period to ns, others to haptic periods
 
-  std::int64_t periodNs(RateGroup group) const noexcept { return haptic_ns_ * divisor(group); }
-  double period(RateGroup group) const noexcept { return static_cast<double>(periodNs(group)) * 1e-9; }
-  double rate(RateGroup group) const noexcept { return 1e9 / static_cast<double>(periodNs(group)); }
+  std::int64_t periodNs(RateGroup group) const noexcept { return haptic_ns_ * divisor(group); }          ///< > 0 [ns]
+  double period(RateGroup group) const noexcept { return static_cast<double>(periodNs(group)) * 1e-9; }  ///< [s]
+  double rate(RateGroup group) const noexcept { return 1e9 / static_cast<double>(periodNs(group)); }     ///< [Hz]
   /// Haptic ticks per tick of the group.
   std::int64_t divisor(RateGroup group) const noexcept { return divisors_[static_cast<std::size_t>(group)]; }
-  Tick tick(RateGroup group, std::uint64_t index) const noexcept;
-  /// Ticks of the group that begin within `duration` seconds.
-  std::uint64_t ticksWithin(RateGroup group, double duration) const noexcept;
+  Tick tick(RateGroup group, std::uint64_t index) const noexcept;              ///< `index` from 0; not late
+  std::uint64_t ticksWithin(RateGroup group, double duration) const noexcept;  ///< that begin within `duration` [s]
 
  private:
   std::int64_t haptic_ns_;

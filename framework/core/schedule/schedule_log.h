@@ -14,16 +14,16 @@ namespace presa {
 /// versions[i] belongs to name i of the group's ScheduleInputs. Thread timing makes these versions differ from run
 /// to run; recording them makes a replay exact.
 struct ScheduleRow {
-  static constexpr int kMaxBridges = 12;
-  std::uint64_t index = 0;
-  std::uint64_t catch_up = 0;  ///< bit 0: Tick::catch_up, bit 1: Tick::resumed, bit 2: Tick::late
-  std::array<std::uint64_t, kMaxBridges> versions{};
+  static constexpr int kMaxBridges = 12;  ///< values that one group may read across rates (E507)
+  std::uint64_t index = 0;                ///< Tick::index
+  std::uint64_t catch_up = 0;             ///< bit 0: Tick::catch_up, bit 1: Tick::resumed, bit 2: Tick::late
+  std::array<std::uint64_t, kMaxBridges> versions{};  ///< 0: none yet
 };
 
 /// Groups whose ticks are recorded: all but the bus, which only publishes results of the others and is not needed for
 /// a replay.
 inline constexpr int kScheduledGroupCount = kRateGroupCount - 1;
-constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }
+constexpr bool isScheduled(RateGroup group) noexcept { return group != RateGroup::kBus; }  ///< its ticks are recorded
 
 /// For each group: the port names of the values read across rates, each once, in the order of ScheduleRow::versions.
 using ScheduleInputs = std::array<std::vector<std::string>, kScheduledGroupCount>;
@@ -32,8 +32,8 @@ using ScheduleInputs = std::array<std::vector<std::string>, kScheduledGroupCount
 /// recorder's writer thread.
 struct ScheduleLog {
   ScheduleInputs inputs;  ///< Graph::scheduleInputs; set before a recorder is attached
-  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;
-  ScheduleLog();
+  std::array<std::unique_ptr<EventRing<ScheduleRow>>, kScheduledGroupCount> rings;  ///< by RateGroup; drop when full
+  ScheduleLog();                                                                    ///< allocates the rings
 };
 
 }  // namespace presa

@@ -16,7 +16,7 @@ enum class ContactMode : std::int32_t { kNone = 0, kStick = 1, kSlip = 2 };
 /// A finger's contact with one body: a spring-damper with a friction of its own. The forces of all contacts of a finger
 /// add up to its own.
 struct ToolContact {
-  std::int32_t body = kNoBody;
+  std::int32_t body = kNoBody;    ///< index into Scene::bodies
   Vec3 p_BP = Vec3::Zero();       ///< where the force acts: the proxy, coordinates of `body` [m]
   Vec3 nhat_B = Vec3::UnitZ();    ///< direction of the normal force on the finger, coordinates of `body`
   Vec3 v_WH = Vec3::Zero();       ///< velocity of the spring's end at the finger [m/s]
@@ -25,20 +25,21 @@ struct ToolContact {
   double stiffness = 0;           ///< [N/m]
   double damping = 0;             ///< along the normal [N s/m]
   // friction, as in FingerContact
-  ContactMode mode = ContactMode::kNone;
-  double friction_static = 0, friction_dynamic = 0;
-  double tangential_ratio = 1;
-  double tangential_damping = 0;
-  Vec3 damped_W = Vec3::Zero();
-  Vec3 f_H_W = Vec3::Zero();  ///< rendered force on the finger, damping and friction included [N]
+  ContactMode mode = ContactMode::kNone;  ///< at this body
+  double friction_static = 0,             ///< bound of tangential over normal force while sticking
+      friction_dynamic = 0;               ///< the same while slipping
+  double tangential_ratio = 1;            ///< tangential stiffness / stiffness
+  double tangential_damping = 0;          ///< share of the finger's [N s/m]
+  Vec3 damped_W = Vec3::Zero();           ///< part of stretch_W that tangential damping causes [m]
+  Vec3 f_H_W = Vec3::Zero();              ///< rendered force on the finger, damping and friction included [N]
 };
 
 /// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap. Where several bodies
-/// hold the finger, `body` bears the largest share, friction is that with it, and mode, depth and forces are those of the
-/// whole contact: it slips if all bodies slip.
+/// hold the finger, `body` bears the largest share, friction is that with it, and mode, depth and forces are those of
+/// the whole contact: it slips if all bodies slip.
 struct FingerContact {
-  ContactMode mode = ContactMode::kNone;
-  std::int32_t body = kNoBody;
+  ContactMode mode = ContactMode::kNone;   ///< of the whole contact; kNone: `body` is kNoBody
+  std::int32_t body = kNoBody;             ///< index into Scene::bodies; kNoBody: none
   Vec3 p_WH = Vec3::Zero();                ///< HIP (haptic interface point) [m]
   Vec3 v_WH = Vec3::Zero();                ///< [m/s]
   Vec3 p_WP = Vec3::Zero();                ///< proxy: centre of the fingertip sphere held at the surface [m]
@@ -59,7 +60,7 @@ struct FingerContact {
   Vec3 f_H_W = Vec3::Zero();               ///< rendered force on the finger, before the output stage [N]
   Vec3 impulse_H_W = Vec3::Zero();         ///< of f_H_W since the start; averaged coupling only [N s]
   Vec3 t_H_W = Vec3::Zero();               ///< rendered torque about H on an oriented tool [N m]; 0 on others
-  // Torsional friction of an oriented tool on a soft fingertip's material: torque -twist_stiffness * twist about nhat_W.
+  // Torsional friction of an oriented tool on a soft fingertip's material: -twist_stiffness * twist about nhat_W.
   double twist = 0;                 ///< turn of the tool over `body` about nhat_W that the contact holds [rad]
   double twist_stiffness = 0;       ///< [N m/rad]; 0: no such torque
   double spin = 0;                  ///< angular velocity of the tool about nhat_W [rad/s]
@@ -82,14 +83,16 @@ struct ContactExchange {
   std::vector<FingerContact> fingers;  ///< in the order of the scene's roles
   BoundedList<ToolContact> contacts;   ///< of all fingers, those of one finger in a row
 
-  ContactExchange() = default;
+  ContactExchange() = default;  ///< of no finger
+  /// Allocates for `finger_count` fingers and their contacts.
   explicit ContactExchange(std::size_t finger_count, std::size_t contacts_per_finger = 1)
       : pop_through_by_finger(finger_count),
         leaps_by_finger(finger_count),
         fingers(finger_count),
         contacts(finger_count * contacts_per_finger) {}
 
-  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }  ///< fingers
+  /// Contacts of one of `fingers`, in place.
   std::span<const ToolContact> contactsOf(const FingerContact& finger) const noexcept {
     return {contacts.begin() + finger.first_contact, finger.contact_count};
   }

@@ -21,17 +21,17 @@ struct FingerInput {
   Vec3 w_WT = Vec3::Zero();      ///< angular velocity [rad/s]
 };
 
-/// Device State: the samples of all devices in one haptic tick, after the checks of SampleCheck.
-/// Sized by the scene at load, one finger each role, in the order of the scene. Written by: haptic thread (device input).
+/// Device State: the samples of all devices in one haptic tick, after the checks of SampleCheck. Sized by the scene at
+/// load, one finger each role, in the order of the scene. Written by: haptic thread (device input).
 struct DeviceState {
-  double time = 0;              ///< simulated time of the sample [s]
-  bool stop_requested = false;  ///< the run is being stopped: forces fade
-  std::uint32_t rearms = 0;     ///< number of re-arms since the start; each one clears latched faults
-  std::vector<FingerInput> fingers;
+  double time = 0;                   ///< simulated time of the sample [s]
+  bool stop_requested = false;       ///< the run is being stopped: forces fade
+  std::uint32_t rearms = 0;          ///< number of re-arms since the start; each one clears latched faults
+  std::vector<FingerInput> fingers;  ///< in the order of the scene's roles
 
-  DeviceState() = default;
-  explicit DeviceState(std::size_t finger_count) : fingers(finger_count) {}
-  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }
+  DeviceState() = default;                                                   ///< of no finger
+  explicit DeviceState(std::size_t finger_count) : fingers(finger_count) {}  ///< as many as the scene has roles
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(fingers.size()); }  ///< fingers
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return fingers.capacity() * sizeof(FingerInput); }
 };
@@ -44,10 +44,11 @@ struct ForceCommand {
   std::vector<Vec3> f_H_W;   ///< force that each device holds from this tick on [N]
   std::vector<Vec3> t_H_W;   ///< torque about H that it holds [N m]
 
-  ForceCommand() = default;
+  ForceCommand() = default;  ///< to no finger
+  /// Zero force and torque on each finger.
   explicit ForceCommand(std::size_t finger_count)
       : f_H_W(finger_count, Vec3::Zero()), t_H_W(finger_count, Vec3::Zero()) {}
-  std::int32_t count() const noexcept { return static_cast<std::int32_t>(f_H_W.size()); }
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(f_H_W.size()); }  ///< fingers
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return (f_H_W.capacity() + t_H_W.capacity()) * sizeof(Vec3); }
 };

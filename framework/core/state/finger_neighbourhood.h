@@ -14,11 +14,11 @@ namespace presa {
 /// `center_B`. A haptic tick starts its query at the cut while the query stays within that ball, else at the root, so
 /// that it never misses a triangle.
 struct NearBody {
-  std::int32_t body = kNoBody;
-  std::int32_t cut_count = 0;    ///< 0: a primitive, or no cut
-  Vec3 center_B = Vec3::Zero();  ///< in coordinates of `body` [m]
-  double radius = 0;             ///< [m]
-  std::array<std::int32_t, kMaxCutNodes> cut;
+  std::int32_t body = kNoBody;                 ///< index into Scene::bodies
+  std::int32_t cut_count = 0;                  ///< 0: a primitive, or no cut
+  Vec3 center_B = Vec3::Zero();                ///< in coordinates of `body` [m]
+  double radius = 0;                           ///< [m]
+  std::array<std::int32_t, kMaxCutNodes> cut;  ///< node indices; the first cut_count are set
 };
 
 /// The bodies that one finger can reach before the next query. The list is complete as long as the finger's query stays
@@ -27,8 +27,8 @@ struct FingerNeighbourhood {
   std::uint64_t serial = 0;      ///< number of the query that made it: equal serials mean equal neighbourhoods
   Vec3 center_W = Vec3::Zero();  ///< [m]
   double radius = -1;            ///< [m]; negative: the list is not usable, every body has to be tested
-  std::int32_t body_count = 0;
-  std::array<NearBody, kMaxNearBodies> bodies;
+  std::int32_t body_count = 0;   ///< bodies in use
+  std::array<NearBody, kMaxNearBodies> bodies;  ///< the first body_count are set
 };
 
 /// Bodies near every finger, and the nodes at which to start in their meshes. The collision query sizes it by the
@@ -38,8 +38,8 @@ struct FingerNeighbourhoods {
   std::int32_t count = 0;                    ///< fingers in use, 0 <= count <= fingers.size()
   std::vector<FingerNeighbourhood> fingers;  ///< in the order of the scene's devices
 
-  FingerNeighbourhoods() = default;
-  FingerNeighbourhoods(const FingerNeighbourhoods& other) { *this = other; }
+  FingerNeighbourhoods() = default;                                           ///< of no finger
+  FingerNeighbourhoods(const FingerNeighbourhoods& other) { *this = other; }  ///< as by assignment
   /// Copies only the fingers in use, and only neighbourhoods whose serial differs. Allocates only when the lengths
   /// differ.
   FingerNeighbourhoods& operator=(const FingerNeighbourhoods& other) {

@@ -10,6 +10,6 @@ inline constexpr int kMaxBodies = 100'000;  ///< bodies of one scene: the same
 inline constexpr int kMaxNearBodies = 64;   ///< bodies that the collision thread lists for one finger
 inline constexpr int kMaxCutNodes = 16;     ///< nodes of a MeshTree that it hands over for one finger and body
 
-inline constexpr std::int32_t kNoBody = -1;
+inline constexpr std::int32_t kNoBody = -1;  ///< an index of a body that means none: free space, the world
 
 }  // namespace presa

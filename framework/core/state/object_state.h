@@ -17,7 +17,7 @@ struct BodyMotion {
   Pose X_WB_end;             ///< pose at ObjectState::time_end
   Vec3 v_WB = Vec3::Zero();  ///< velocity of the body frame's origin at time_end [m/s]
   Vec3 w_WB = Vec3::Zero();  ///< angular velocity at time_end [rad/s]
-  bool asleep = false;
+  bool asleep = false;       ///< at rest: the engine leaves it out until something wakes it
   std::int32_t island = -1;  ///< the same for bodies in contact, by way of free bodies; -1: the engine does not say
 };
 
@@ -32,13 +32,13 @@ enum ObjectFault : std::uint32_t {
 /// Penetration depth over all contact points between bodies (fixed ones included, fingers not) at the start of the last
 /// sub-step of the step just solved. Contacts of sleeping bodies with sleeping or fixed ones are not counted.
 struct BodyPenetration {
-  static constexpr std::int32_t kUnknown = -1;
+  static constexpr std::int32_t kUnknown = -1;  ///< `points` of an engine that does not say
   std::int32_t points = kUnknown;  ///< kUnknown: the engine does not report penetration, and the depths are NaN
   double mean = std::numeric_limits<double>::quiet_NaN();   ///< [m]; 0 where nothing touches
   double worst = std::numeric_limits<double>::quiet_NaN();  ///< [m]; 0 where nothing touches
 };
 
-/// Energy that appeared from nothing since the start: what bodies gained beyond the work of fingers and external forces.
+/// Energy that appeared from nothing since the start: the bodies' gain beyond the work of fingers and external forces.
 /// Zero in nature; a method's error, or the push that separates bodies which overlapped. NaN: the engine does not say.
 struct EnergyCreated {
   double sum = std::numeric_limits<double>::quiet_NaN();         ///< [J]
@@ -47,11 +47,12 @@ struct EnergyCreated {
 
 /// Impulse that one finger gave to one body since the finger came to it.
 struct FingerImpulse {
-  std::int32_t finger = 0, body = kNoBody;
+  std::int32_t finger = 0,        ///< index into the scene's roles
+      body = kNoBody;             ///< index into Scene::bodies
   double since = 0;               ///< time_begin of the first step with this contact [s]
   Vec3 impulse_W = Vec3::Zero();  ///< on the body; of a held body without what is predicted for a later tick [N s]
   double until = kNoEnd;          ///< up to which it is counted [s]; kNoEnd: to time_end
-  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();  ///< `until` of a contact that still lasts
 };
 
 /// Object State: motion of every body of the scene (fixed ones too, in scene order) over the step just solved.
@@ -65,8 +66,8 @@ struct ObjectState {
   std::uint32_t faults = 0;  ///< ObjectFault bits since the start; forces fade for good when any is set
   /// Steps since the start in which an island had to change from the direct to the iterative solver.
   std::uint64_t fallback_steps = 0;
-  BodyPenetration penetration;
-  EnergyCreated energy;
+  BodyPenetration penetration;      ///< unknown until the first step
+  EnergyCreated energy;             ///< NaN until the engine says it
   std::uint64_t stopped_short = 0;  ///< since the start: how often a body was stopped short of passing through another
   std::uint64_t too_many_held = 0;  ///< how often a group of bodies was too large for the haptic thread to move
   double held_time = -1;  ///< of the newest bodies moved by the haptic thread that this state knows [s]; -1: none
@@ -74,9 +75,9 @@ struct ObjectState {
   /// Impulse that each finger gave to the bodies since the start, in W [N s]. Its mean slope is the mean force [N].
   std::vector<Vec3> finger_impulse_W;
   BoundedList<FingerImpulse> touches;  ///< the same by finger and moving body, of the contacts of the step just solved
-  std::vector<BodyMotion> bodies;
+  std::vector<BodyMotion> bodies;      ///< in scene order, the fixed ones too
 
-  std::int32_t count() const noexcept { return static_cast<std::int32_t>(bodies.size()); }
+  std::int32_t count() const noexcept { return static_cast<std::int32_t>(bodies.size()); }  ///< bodies of the scene
   /// Heap memory that it owns [bytes] (SizedAtLoad).
   std::size_t roomBytes() const noexcept {
     return bodies.capacity() * sizeof(BodyMotion) + finger_impulse_W.capacity() * sizeof(Vec3) + touches.roomBytes();
@@ -91,8 +92,8 @@ struct ObjectState {
   }
 };
 
-/// Port of the Object State in which bodies that the haptic thread itself moves are where it has moved them; exists only
-/// in runs with such bodies, on the haptic thread.
+/// Port of the Object State in which bodies that the haptic thread itself moves are where it has moved them; exists
+/// only in runs with such bodies, on the haptic thread.
 inline constexpr const char* kShownObjectsPort = "shown_objects";
 
 }  // namespace presa

@@ -15,11 +15,12 @@ class CommandKeeper {
   /// Enforces the driver's rating, so that wrong limits in the program or its files have no effect here.
   explicit CommandKeeper(const DeviceRating& rating) : stage_(limitsOf(rating)) {}
 
+  /// What came since the last step.
   struct Input {
-    bool fresh = false;  ///< a command came since the last step
-    bool alone = false;  ///< the program is gone; latches
-    Wrench command = {};
-    FingerInput finger{};
+    bool fresh = false;    ///< a command came since the last step
+    bool alone = false;    ///< the program is gone; latches
+    Wrench command = {};   ///< the newest one, on the tool in W
+    FingerInput finger{};  ///< sample of the device now
   };
 
   /// Returns the wrench to send, in W. `elapsed`: since the last step, by the clock [s]. A delayed keeper still
@@ -41,9 +42,9 @@ class CommandKeeper {
                        std::min(elapsed, kLongestStep));
   }
 
-  void rearm() noexcept { stage_.rearm(); }
-  bool dropped() const noexcept { return dropped_; }
-  const Wrench& last() const noexcept { return stage_.last(); }
+  void rearm() noexcept { stage_.rearm(); }                      ///< clears latched faults of its output stage
+  bool dropped() const noexcept { return dropped_; }             ///< no force until a command of exactly zero
+  const Wrench& last() const noexcept { return stage_.last(); }  ///< wrench of the last step, in W
 
   /// Longest age of a command [s]: more than a late haptic tick, short enough for zero within 10 ms from 5 N.
   static constexpr double kHold = 5e-3;

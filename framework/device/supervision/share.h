@@ -25,7 +25,8 @@ struct SupervisorReport {
 
 /// Memory that the program and the supervisor of one device share. The program makes it; both are of the same build.
 struct SupervisorShare {
-  static constexpr std::size_t kTextSize = 32 * 1024;
+  static constexpr std::size_t kTextSize = 32 * 1024;  ///< of `task` and of `answer` [bytes]
+  /// How far the supervisor is.
   enum class State : std::uint32_t {
     kStarting,  ///< the supervisor opens the device
     kRunning,
@@ -34,18 +35,18 @@ struct SupervisorShare {
   };
 
   // written by the program before it starts the supervisor
-  double period = 0.25e-3;  ///< of a cycle [s]
-  std::size_t task_size = 0;
+  double period = 0.25e-3;    ///< of a cycle [s]
+  std::size_t task_size = 0;  ///< bytes of `task` in use
   char task[kTextSize] = {};  ///< the device to open (task.h)
 
   // shared from then on
-  std::atomic<State> state{State::kStarting};
-  std::size_t answer_size = 0;
-  char answer[kTextSize] = {};  ///< written once, before `state` leaves kStarting: notes, or findings
-  std::atomic<bool> close{false};
-  std::atomic<std::uint32_t> rearms{0};
-  LatestValue<SupervisedCommand> command;  ///< program's haptic thread to supervisor
-  LatestValue<SupervisorReport> report;    ///< supervisor to program's haptic thread
+  std::atomic<State> state{State::kStarting};  ///< written by the supervisor
+  std::size_t answer_size = 0;                 ///< bytes of `answer` in use
+  char answer[kTextSize] = {};                 ///< written once, before `state` leaves kStarting: notes, or findings
+  std::atomic<bool> close{false};              ///< by the program: take the force to zero, then end
+  std::atomic<std::uint32_t> rearms{0};        ///< by the program: number of re-arms so far
+  LatestValue<SupervisedCommand> command;      ///< program's haptic thread to supervisor
+  LatestValue<SupervisorReport> report;        ///< supervisor to program's haptic thread
 };
 static_assert(std::atomic<SupervisorShare::State>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
                   std::atomic<std::uint8_t>::is_always_lock_free,

@@ -25,9 +25,11 @@ class SharedMemory {
   /// Maps the memory in the other process.
   static SharedMemory joined(int fd) { return SharedMemory(fd); }
 
-  SharedMemory() = default;
+  SharedMemory() = default;  ///< empty
+  /// `other` is empty afterwards.
   SharedMemory(SharedMemory&& other) noexcept
       : fd_(std::exchange(other.fd_, -1)), mapped_(std::exchange(other.mapped_, nullptr)) {}
+  /// Exchanges the two.
   SharedMemory& operator=(SharedMemory&& other) noexcept {
     std::swap(fd_, other.fd_);
     std::swap(mapped_, other.mapped_);
@@ -38,10 +40,10 @@ class SharedMemory {
     if (fd_ >= 0) ::close(fd_);
   }
 
-  explicit operator bool() const noexcept { return mapped_ != nullptr; }
-  T& operator*() const noexcept { return *mapped_; }
-  T* operator->() const noexcept { return mapped_; }
-  int fd() const noexcept { return fd_; }
+  explicit operator bool() const noexcept { return mapped_ != nullptr; }  ///< holds memory
+  T& operator*() const noexcept { return *mapped_; }                      ///< not empty
+  T* operator->() const noexcept { return mapped_; }                      ///< not empty
+  int fd() const noexcept { return fd_; }                                 ///< file of the memory; -1: empty
 
  private:
   explicit SharedMemory(int fd) : fd_(fd) {

@@ -14,7 +14,8 @@ namespace presa {
 /// this process stops or dies. read and write exchange the latest values with it, wait-free, without a system call.
 class SupervisedDevice final : public Device {
  public:
-  /// `driver`: the same device, never opened here; it answers model(), facts(), damping(), mass() and measuresOrientation().
+  /// `driver`: the same device, never opened here; it answers model(), facts(), damping(), mass() and
+  /// measuresOrientation().
   SupervisedDevice(std::unique_ptr<Device> driver, const DeviceBinding& binding, std::string rig_file);
   ~SupervisedDevice() override { close(); }
 
@@ -36,7 +37,7 @@ class SupervisedDevice final : public Device {
   double mass() const override { return driver_->mass(); }
   std::vector<std::string> notes() const override { return notes_; }
 
-  pid_t supervisor() const noexcept { return child_; }
+  pid_t supervisor() const noexcept { return child_; }  ///< its process; -1: none
   /// The supervisor's last report. Haptic thread only, or while no thread runs.
   const SupervisorReport& report() const noexcept { return live_.load()->report.value(); }
 

@@ -23,7 +23,7 @@ class Supervisor {
 
   /// `alone`: the program is gone. `elapsed`: since the end of the last cycle [s]. False: the device may be closed.
   bool cycle(bool alone, double elapsed) noexcept;
-  void close() noexcept { device_->close(); }
+  void close() noexcept { device_->close(); }  ///< closes the device; after cycle() has returned false
 
   /// Zero force is sent for this long before the device is closed [s].
   static constexpr double kZeroForceTime = 0.05;

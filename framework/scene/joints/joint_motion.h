@@ -23,7 +23,7 @@ struct JointOpening {
   double distance = 0;  ///< [m]
   double angle = 0;     ///< [rad]
 };
-JointOpening openingOf(const Joint& joint, const JointPose& pose) noexcept;
+JointOpening openingOf(const Joint& joint, const JointPose& pose) noexcept;  ///< opening of a joint in `pose`
 
 /// Follows every joint of a scene. Angles of axes go on beyond half a turn, as long as less than half a turn lies
 /// between two calls. Allocates in the constructor only.
@@ -32,8 +32,8 @@ class JointMotion {
   /// `scene` must outlive this.
   explicit JointMotion(const Scene& scene);
 
-  std::size_t count() const noexcept { return states_.size(); }
-  const Joint& joint(std::size_t j) const noexcept { return scene_.joints[j]; }
+  std::size_t count() const noexcept { return states_.size(); }                  ///< joints of the scene
+  const Joint& joint(std::size_t j) const noexcept { return scene_.joints[j]; }  ///< j as in Scene::joints
   /// `poseOfBody(i)`: pose X_WB of body i of the scene.
   template <class PoseOfBody>
   void follow(const PoseOfBody& poseOfBody) {
@@ -49,6 +49,7 @@ class JointMotion {
   double position(std::size_t j, std::size_t i) const noexcept { return states_[j].position[i]; }
   /// J in `body` against J in `to`.
   const JointPose& pose(std::size_t j) const noexcept { return states_[j].pose; }
+  /// Constant, from the start poses.
   const JointFrames& frames(std::size_t j) const noexcept { return states_[j].frames; }
 
  private:
