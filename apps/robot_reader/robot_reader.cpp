@@ -13,6 +13,7 @@ namespace presa::robot {
 namespace {
 
 constexpr std::size_t kMaxMessage = 1000;
+constexpr double kSame = 1e-6;  // of a mesh's diagonal: vertices nearer than this are one
 
 void throwIt(const char* message) { throw std::runtime_error(message); }
 void ignoreIt(const char* /*message*/) {}  // MuJoCo would write a file otherwise
@@ -112,8 +113,7 @@ class Reading {
     part.X_LG = pose(m_.geom_pos + 3 * i, m_.geom_quat + 4 * i);
     part.friction = m_.geom_friction[3 * i];
     part.collides = m_.geom_contype[i] != 0 || m_.geom_conaffinity[i] != 0;
-    const float* const coded = m_.geom_matid[i] >= 0 ? m_.mat_rgba + 4 * m_.geom_matid[i] : m_.geom_rgba + 4 * i;
-    part.color = vec(coded).unaryExpr([](double c) { return srgb::toLinear(c); });
+    part.color = vec(colorOf(i)).unaryExpr([](double c) { return srgb::toLinear(c); });
     const Vec3 size = vec(m_.geom_size + 3 * i);
     switch (m_.geom_type[i]) {
       case mjGEOM_PLANE:
@@ -141,6 +141,13 @@ class Reading {
     return part;
   }
 
+  /// A geom's own colour, unless it has the default and a material.
+  const float* colorOf(int geom) const {
+    const float* const own = m_.geom_rgba + 4 * geom;
+    const bool is_default = own[0] == 0.5F && own[1] == 0.5F && own[2] == 0.5F && own[3] == 1.0F;
+    return is_default && m_.geom_matid[geom] >= 0 ? m_.mat_rgba + 4 * m_.geom_matid[geom] : own;
+  }
+
   TriMesh mesh(int i) const {
     TriMesh mesh;
     const float* const vertices = m_.mesh_vert + 3 * m_.mesh_vertadr[i];
@@ -148,6 +155,9 @@ class Reading {
     const int* const faces = m_.mesh_face + 3 * m_.mesh_faceadr[i];
     for (int f = 0; f < m_.mesh_facenum[i]; ++f)
       mesh.triangles.push_back({faces[3 * f], faces[3 * f + 1], faces[3 * f + 2]});
+    // single precision, and a vertex for each corner
+    const AxisBox box = boundsOf(mesh);
+    weld(mesh, kSame * (box.high - box.low).norm());
     return mesh;
   }
 

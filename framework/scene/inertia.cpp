@@ -110,6 +110,13 @@ BodyInertia inertiaOf(const Body& body, const BodyMeshes& meshes, Diagnostics& d
   result.mass = body.mass ? *body.mass : density * unit.volume;
   result.p_BCm = body.physics->X_BG * unit.center;
   result.inertia = density * R_BG * unit.inertia * R_BG.transpose();
+  if (body.p_BCm) result.p_BCm = *body.p_BCm;
+  if (body.inertia_B) result.inertia = *body.inertia_B;
+  if (body.inertia_B && !physical(result)) {
+    diagnostics.error(321, body.physics->where, "body '" + body.name + "': no real body has this inertia",
+                      "its principal moments are positive, and none is larger than the sum of the two others");
+    return {};
+  }
   if (!physical(result)) {
     diagnostics.error(321, body.physics->where,
                       "body '" + body.name + "': its physics geometry gives a mass of " + std::to_string(result.mass) +

@@ -9,7 +9,7 @@ MassProperties massPropertiesOf(const Shape& shape, const TriMesh* mesh);
 
 /// Mass, centre of mass and inertia of a free body from its physics geometry, in the body frame; all zero for a fixed
 /// body. Several shapes have one density and count in full, also where they overlap. A decomposed mesh counts as it was
-/// before. E320: no physics geometry; E321: mass or inertia not physically valid.
+/// before. Centre of mass and inertia that the scene gives replace those of the shapes. E320: no physics geometry; E321: mass or inertia not physically valid.
 BodyInertia inertiaOf(const Body& body, const BodyMeshes& meshes, Diagnostics& diagnostics);
 
 }  // namespace presa

@@ -114,6 +114,8 @@ struct Body {
   std::size_t material = 0;         ///< index into Scene::materials
   std::optional<double> mass;       ///< [kg]; exactly one of mass and density for a free body
   std::optional<double> density;    ///< [kg/m^3]
+  std::optional<Vec3> p_BCm;        ///< centre of mass [m]; only with `inertia`; absent: that of the shapes
+  std::optional<Mat3> inertia_B;    ///< about the centre of mass [kg m^2], with `mass`; absent: that of the shapes
   std::optional<Geometry> visual;   ///< absent: the haptic geometry is drawn, else the physics geometry
   std::optional<Geometry> haptic;   ///< absent: fingers pass through
   std::optional<Geometry> physics;  ///< absent (fixed bodies only): other bodies pass through

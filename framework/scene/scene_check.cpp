@@ -35,7 +35,8 @@ enum Code {
   kSlowDynamics = 223,
   kTwoLaws = 224,
   kOtherRenderer = 225,
-  kNotAtHapticRate = 228
+  kNotAtHapticRate = 228,
+  kInertia = 276
 };
 
 // Between two dynamics steps a held body moves on in a straight line. The scripted grasp of 20 and 200 g at 0.5 to 4
@@ -297,7 +298,7 @@ class SceneCheck {
   }
 
   void checkFixedPhysics(const Element& physics) {
-    for (const char* attribute : {"mass", "density"}) {
+    for (const char* attribute : {"mass", "density", "inertia", "center"}) {
       if (!physics.hasAttribute(attribute)) continue;
       diagnostics_.warning(kMassOfFixed, physics.where(attribute),
                            quote(attribute) + " of " + physics.label() + " has no effect: the body is fixed");
@@ -310,6 +311,7 @@ class SceneCheck {
                          "add <physics mass=\"...\"> with a shape, or fixed=\"true\"");
       return;
     }
+    checkInertia(physics[0]);
     const bool has_mass = physics[0].hasAttribute("mass"), has_density = physics[0].hasAttribute("density");
     if (has_mass != has_density) return;
     if (!has_mass && isMisplaced(body, physics[0])) return;
@@ -317,6 +319,16 @@ class SceneCheck {
         kMassOrDensity, has_mass ? physics[0].where("density") : physics[0].where(),
         physics[0].label() + " needs one of 'mass' and 'density', found " + (has_mass ? "both" : "neither"),
         "mass [kg] or density [kg/m^3]; a body that never moves has fixed=\"true\"");
+  }
+
+  /// An inertia belongs to a mass, a centre to an inertia: one alone would be mixed with that of the shapes.
+  void checkInertia(const Element& physics) {
+    for (const auto& [given, needed] : {std::pair{"inertia", "mass"}, {"center", "inertia"}}) {
+      if (!physics.hasAttribute(given) || physics.hasAttribute(needed)) continue;
+      diagnostics_.error(kInertia, physics.where(given),
+                         quote(given) + " of " + physics.label() + " needs " + quote(needed) + ", found none",
+                         std::string("add ") + needed + "=\"…\", or leave out both");
+    }
   }
 
   /// The mass is given in the wrong place, which the schema check has reported already.

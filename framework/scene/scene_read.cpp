@@ -126,6 +126,14 @@ std::vector<std::size_t> indicesOf(const std::vector<std::string>& names, const 
   return indices;
 }
 
+/// "ixx iyy izz ixy ixz iyz"
+Mat3 readInertia(const Element& physics) {
+  const std::vector<double> m = physics.numbers("inertia");
+  Mat3 inertia;
+  inertia << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2];
+  return inertia;
+}
+
 Body readBody(const Element& element, const IndexByName& materials, const std::string& directory) {
   Body body;
   body.name = element.attribute("name");
@@ -140,6 +148,8 @@ Body readBody(const Element& element, const IndexByName& materials, const std::s
     body.mass = optionalNumber(physics, "mass");
     body.density = optionalNumber(physics, "density");
     body.force_W = readVec3(physics, "force", body.force_W);
+    if (physics.hasAttribute("center")) body.p_BCm = readVec3(physics, "center", Vec3::Zero());
+    if (physics.hasAttribute("inertia")) body.inertia_B = readInertia(physics);
   }
   if (!body.fixed) {
     body.v_WCm = readVec3(element, "velocity", body.v_WCm);

@@ -51,7 +51,8 @@ std::optional<Imported> importRobot(const Wanted& wanted, Diagnostics& diagnosti
     return std::nullopt;
   }
   Imported imported{sceneName(source->name), {}, source->left_out.all()};
-  imported.files = sceneOf(robot, {imported.name, wanted.file, wanted.stiffness}, diagnostics);
+  imported.files = sceneOf(
+      robot, {imported.name, fs::path(wanted.file).filename().string(), source->root, wanted.stiffness}, diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   return imported;
 }

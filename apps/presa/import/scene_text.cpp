@@ -140,25 +140,41 @@ class Writer {
     return text + "    </physics>\n";
   }
 
-  /// What stands still, a body for each solid.
+  /// What stands still: the root link as one body, or a body for each solid of a model without one.
   std::string staticBodies() {
+    const std::vector<Part>& parts = robot_.links[0].parts;
+    if (parts.empty()) return {};
+    if (!settings_.root.empty()) return staticBody(parts, settings_.root, {});
     std::string bodies;
-    for (const Part& part : robot_.links[0].parts) {
-      const std::string name = names_.unique(part.name, "static");
+    for (const Part& part : parts) {
       Part own = part;
       own.X_LG = {};
-      bodies += "  <body name=\"" + name + "\" fixed=\"true\" material=\"" + materialOf(part) + "\"" +
-                poseText(part.X_LG) + ">\n";
-      if (!part.collides) bodies += visual({own}, name);
-      if (part.collides) bodies += haptic({own}, name) + physics({own}, "", name);
-      bodies += "  </body>\n";
+      bodies += staticBody({own}, part.name, part.X_LG);
     }
     return bodies;
   }
 
-  std::string linkBody(const Link& link, const std::string& name) {
+  std::string staticBody(const std::vector<Part>& parts, const std::string& wanted, const Pose& X_WB) {
+    const std::string name = names_.unique(wanted, "static");
+    const auto [solid, drawn] = sorted(parts);
+    std::string body = "  <body name=\"" + name + "\" fixed=\"true\" material=\"" +
+                       materialOf(solid.empty() ? drawn.front() : solid.front()) + "\"" + poseText(X_WB) + ">\n";
+    if (!drawn.empty()) body += visual(drawn, name);
+    if (!solid.empty()) body += haptic(solid, name) + physics(solid, "", name);
+    return body + "  </body>\n";
+  }
+
+  struct Sorted {
     std::vector<Part> solid, drawn;
-    for (const Part& part : link.parts) (part.collides ? solid : drawn).push_back(part);
+  };
+  static Sorted sorted(const std::vector<Part>& parts) {
+    Sorted sorted;
+    for (const Part& part : parts) (part.collides ? sorted.solid : sorted.drawn).push_back(part);
+    return sorted;
+  }
+
+  std::string linkBody(const Link& link, const std::string& name) {
+    auto [solid, drawn] = sorted(link.parts);
     const std::vector<Part> felt = solid;
     if (solid.empty()) solid.push_back(ballOf(link, name));
     noteFrictions(solid, name);
@@ -173,8 +189,7 @@ class Writer {
 
   static std::string inertiaText(const Link& link) {
     const Mat3& m = link.inertia_L;
-    const Vec3 com = link.com_L.unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; });
-    return numberText("mass", link.mass) + vectorText("center", com) +
+    return numberText("mass", link.mass) + vectorText("center", link.com_L) +
            format(" inertia=\"%.9g %.9g %.9g %.9g %.9g %.9g\"", m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2));
   }
 

@@ -11,6 +11,7 @@ namespace presa::robot {
 struct SceneSettings {
   std::string name;         ///< of the scene and of its files
   std::string source;       ///< file that the robot was read from, for the description
+  std::string root;         ///< link that is fixed to the world; empty: none
   double stiffness = 1000;  ///< of all surfaces under a finger [N/m]
 };
 

@@ -1,5 +1,7 @@
 #include "apps/presa/import/solids.h"
 
+#include <cmath>
+
 #include "apps/common/terminal/text.h"
 #include "framework/geometry/srgb.h"
 
@@ -8,6 +10,7 @@ namespace {
 
 constexpr double kEndless = 10;  // edge of a plane without an end [m]
 constexpr double kSlab = 0.1;    // thickness of a plane [m]
+constexpr double kZero = 1e-12;  // what rounding leaves of zero
 constexpr int kFine = 3;         // subdivisions of a sphere: chord error below 0.5 % of the radius
 
 using terminal::format;
@@ -45,13 +48,13 @@ TriMesh ownSurface(const Part& part, const Robot& robot) {
 std::string numberText(const std::string& name, double value) { return format(" %s=\"%.9g\"", name.c_str(), value); }
 
 std::string vectorText(const std::string& name, const Vec3& v) {
-  const Vec3 exact = v.unaryExpr([](double x) { return x == 0 ? 0.0 : x; });  // no "-0"
+  const Vec3 exact = v.unaryExpr([](double x) { return std::abs(x) < kZero ? 0.0 : x; });
   return format(" %s=\"%.9g %.9g %.9g\"", name.c_str(), exact.x(), exact.y(), exact.z());
 }
 
 std::string poseText(const Pose& pose) {
   constexpr double kTurn = 1e-9;
-  const std::string moved = pose.p.isZero(0) ? "" : vectorText("pos", pose.p);
+  const std::string moved = pose.p.isZero(kZero) ? "" : vectorText("pos", pose.p);
   if (pose.q.vec().norm() < kTurn) return moved;
   return moved + format(" quat=\"%.9g %.9g %.9g %.9g\"", pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z());
 }

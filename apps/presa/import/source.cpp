@@ -1,6 +1,7 @@
 #include "apps/presa/import/source.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
@@ -64,7 +65,6 @@ class Preparation {
   void urdf(xml::Element root);
   void urdfLink(const xml::Element& link);
   void urdfJoint(const xml::Element& joint);
-  void freeBase(xml::Element root);
   void mjcf(xml::Element root);
   void include(const xml::Element& in, int depth);
   void mjcfAssets(const xml::Element& root);
@@ -72,19 +72,41 @@ class Preparation {
   void defaults(const xml::Element& of);
   xml::Element compiler(xml::Element root);
   std::string packageFile(const std::string& name, const SourceLocation& where);
-  std::string meshFile(const std::string& path, const SourceLocation& where);
+  std::string meshFile(const std::string& path, const SourceLocation& where, const Vec3& scale = Vec3::Ones());
 
   const std::string& file_;
   fs::path scratch_;
   const SourceOptions& options_;
   Diagnostics& diagnostics_;
   Source source_;
-  std::map<std::string, std::string> meshes_;  ///< file -> its OBJ in the scratch folder
+  /// File and scale -> its OBJ in the scratch folder.
+  std::map<std::pair<std::string, std::array<double, 3>>, std::string> meshes_;
   std::string mesh_folder_;
   bool strip_path_ = false;
 };
 
 // ---- URDF ----------------------------------------------------------------------------------------------------------
+
+/// The link that is no joint's child.
+std::optional<xml::Element> rootOf(const xml::Element& robot) {
+  Names children;
+  for (const xml::Element& joint : robot.children("joint"))
+    for (const xml::Element& child : joint.children("child")) children.insert(child.attribute("link"));
+  for (const xml::Element& link : robot.children("link"))
+    if (!children.contains(link.attribute("name"))) return link;
+  return std::nullopt;
+}
+
+/// A joint that leaves the root free, between it and the world.
+void freeBase(xml::Element robot, const xml::Element& root) {
+  const SourceLocation where = root.where();
+  robot.addChild("link", where).setAttribute("name", "presa_world");
+  xml::Element joint = robot.addChild("joint", where);
+  joint.setAttribute("name", "presa_world");
+  joint.setAttribute("type", "floating");
+  joint.addChild("parent", where).setAttribute("link", "presa_world");
+  joint.addChild("child", where).setAttribute("link", root.attribute("name"));
+}
 
 void Preparation::urdf(xml::Element root) {
   source_.name = root.attribute("name");
@@ -92,7 +114,12 @@ void Preparation::urdf(xml::Element root) {
   for (const xml::Element& material : root.children("material")) drop(material, {"texture"});
   for (const xml::Element& link : root.children("link")) urdfLink(link);
   for (const xml::Element& joint : root.children("joint")) urdfJoint(joint);
-  if (options_.free_base) freeBase(root);
+  if (const auto base = rootOf(root)) {
+    if (options_.free_base)
+      freeBase(root, *base);
+    else
+      source_.root = base->attribute("name");
+  }
   const std::vector<xml::Element> given = root.children("mujoco");
   xml::Element mujoco = given.empty() ? root.addChild("mujoco", root.where()) : given.front();
   xml::Element settings = compiler(mujoco);
@@ -109,7 +136,11 @@ void Preparation::urdfLink(const xml::Element& link) {
       for (const xml::Element& geometry : shape.children("geometry")) {
         for (xml::Element& mesh : geometry.children("mesh")) {
           const SourceLocation where = mesh.where("filename");
-          mesh.setAttribute("filename", meshFile(packageFile(mesh.attribute("filename"), where), where));
+          // MuJoCo would take a mesh of two scales for one
+          const std::vector<double> factors = mesh.numbers("scale");
+          const Vec3 scale = factors.size() == 3 ? Vec3(factors[0], factors[1], factors[2]) : Vec3(Vec3::Ones());
+          mesh.removeAttribute("scale");
+          mesh.setAttribute("filename", meshFile(packageFile(mesh.attribute("filename"), where), where, scale));
         }
       }
     }
@@ -121,24 +152,6 @@ void Preparation::urdfJoint(const xml::Element& joint) {
   for (const xml::Element& limit : joint.children("limit")) {
     if (limit.number("effort", 0) != 0 || limit.number("velocity", 0) != 0)
       source_.left_out.add("effort and velocity of <limit>", limit.where());
-  }
-}
-
-/// The root, the link that is no joint's child, hangs on the world by a joint that leaves it free.
-void Preparation::freeBase(xml::Element root) {
-  Names children;
-  for (const xml::Element& joint : root.children("joint"))
-    for (const xml::Element& child : joint.children("child")) children.insert(child.attribute("link"));
-  for (const xml::Element& link : root.children("link")) {
-    if (children.contains(link.attribute("name"))) continue;
-    const SourceLocation where = link.where();
-    root.addChild("link", where).setAttribute("name", "presa_world");
-    xml::Element joint = root.addChild("joint", where);
-    joint.setAttribute("name", "presa_world");
-    joint.setAttribute("type", "floating");
-    joint.addChild("parent", where).setAttribute("link", "presa_world");
-    joint.addChild("child", where).setAttribute("link", link.attribute("name"));
-    return;
   }
 }
 
@@ -249,20 +262,22 @@ xml::Element Preparation::compiler(xml::Element root) {
 }
 
 /// The mesh as an OBJ file, so that only Presa's own reader opens the file.
-std::string Preparation::meshFile(const std::string& path, const SourceLocation& where) {
+std::string Preparation::meshFile(const std::string& path, const SourceLocation& where, const Vec3& scale) {
   if (path.empty()) return {};
-  const auto known = meshes_.find(path);
-  if (known != meshes_.end()) return known->second;
-  std::string& made = meshes_[path];
+  const auto [known, is_new] = meshes_.try_emplace({path, {scale.x(), scale.y(), scale.z()}});
+  std::string& made = known->second;
+  if (!is_new) return made;
   std::error_code error;
   if (!fs::exists(path, error)) {
     diagnostics_.error(kNoFile, where, "there is no file " + quote(path), "names are relative to this file");
     return {};
   }
   if (!input::checkNamed(where, path, diagnostics_)) return {};
-  const TriMesh mesh = importMesh(path, {.must_be_closed = false, .display_only = true}, where, diagnostics_);
+  const TriMesh mesh =
+      importMesh(path, {.must_be_closed = false, .display_only = true, .scale = scale}, where, diagnostics_);
   if (mesh.triangles.empty()) return {};
-  made = (scratch_ / ("mesh_" + std::to_string(meshes_.size()) + ".obj")).string();
+  const std::string name = fs::path(path).stem().string() + "_" + std::to_string(meshes_.size()) + ".obj";
+  made = (scratch_ / name).string();
   writeFileAtomically(made, objText(mesh, kDigits));
   return made;
 }

@@ -34,6 +34,7 @@ struct SourceOptions {
 /// folder, and what Presa's scenes do not have is taken out. All files are opened through framework/input.
 struct Source {
   std::string name;                         ///< of the model, as the file says, else of the file
+  std::string root;                         ///< link of a URDF that is fixed to the world; empty: none
   std::unique_ptr<xml::Document> document;  ///< as it is written to `file`
   std::filesystem::path file;               ///< in the scratch folder
   LeftOuts left_out;

@@ -29,13 +29,14 @@ TEST(ParticipantWindow, OpensBeforeTheFirstTrialAndTakesTheAnswer) {
       << "operator=$(timeout 60 xdotool search --sync --onlyvisible --name operator)\n"
       << "grep -c trial_begin " << journal << " > " << scratch.file("trials_before")
       << "\n"
-      // what the participant types before the question is no answer and stops nothing
-      << "xdotool windowfocus $participant key q key 2\n"
-      << "for i in $(seq 60); do xdotool windowfocus $operator key space\n"
+      // keys go to a window by its number: a window that opens late takes the focus from the other one.
+      // What the participant types before the question is no answer and stops nothing
+      << "xdotool key --window $participant q key --window $participant 2\n"
+      << "for i in $(seq 60); do xdotool key --window $operator space\n"
       << "sleep 0.5; grep -q trial_begin " << journal << " && break; done\n"
-      << "for i in $(seq 120); do xdotool windowfocus $participant key 2\n"
+      << "for i in $(seq 120); do xdotool key --window $participant 2\n"
       << "sleep 0.5; grep -q trial_end " << journal << " && break; done\n"
-      << "while kill -0 $! 2> /dev/null; do xdotool windowfocus $operator key q; sleep 0.5; done\n"
+      << "while kill -0 $! 2> /dev/null; do xdotool key --window $operator q; sleep 0.5; done\n"
       << "wait $!; echo $? > " << scratch.file("status") << "\n";
   // ignore the status: xvfb-run also fails when it cannot clean up
   std::ignore = std::system(("timeout 200 xvfb-run -a -s '-screen 0 1400x900x24' bash " + scratch.file("people.sh") +

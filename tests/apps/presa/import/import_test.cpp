@@ -77,7 +77,7 @@ TEST_F(Import, LinksOfAUrdfAreWhereItsJointsPutThem) {
   expectNear(body("left_finger").X_WB.p, {0, 0.05, 0.07});
   expectNear(body("left_finger").X_WB.q * Vec3::UnitX(), Vec3::UnitY());
   expectNear(body("knob").X_WB.p, {0.035, 0, 0.04});
-  EXPECT_TRUE(body("static").fixed);  // the base
+  EXPECT_TRUE(body("base").fixed);
   EXPECT_EQ(world_->scene.bodies.size(), 4u) << "the label is glued to the palm";
 }
 
@@ -107,7 +107,7 @@ TEST_F(Import, WhatIsLeftOutIsSaid) {
   import(kFixtures + "gripper/urdf/gripper.urdf");
   EXPECT_THAT(said_, AllOf(HasSubstr("<transmission>, 2 times, the first at"), HasSubstr("<gazebo> at"),
                            HasSubstr("<mimic> at"), HasSubstr("effort and velocity of <limit>, 2 times")));
-  EXPECT_THAT(said_, HasSubstr("gripper.urdf:52"));
+  EXPECT_THAT(said_, HasSubstr("gripper.urdf:39"));
 }
 
 // A wedge of 30 x 20 x 10 mm, given in millimetres, and a box.
