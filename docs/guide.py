@@ -27,6 +27,7 @@ TITLES = {
 }
 PAGES = {
     "config/README.md": "reference/scenes.md",
+    "config/DEFAULTS.md": "reference/defaults.md",
     "config/JOINTS.md": "reference/joints.md",
     "config/MODELS.md": "reference/models.md",
     "config/HOLLOW_BODIES.md": "reference/hollow_bodies.md",

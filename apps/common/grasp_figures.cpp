@@ -121,6 +121,14 @@ double longestStick(Samples hold, const std::vector<FingerGrasp>& fingers, std::
   return longest;
 }
 
+/// No joint holds the object, and no body effect pushes it.
+bool carriedByFingers(const Scene& scene, std::int32_t body) {
+  const auto pushes = [&](const PluginElement& element) {
+    return element.kind == PluginKind::kBodyEffect && (element.body == body || element.body == kNoBody);
+  };
+  return !isJoined(scene.joints, static_cast<std::size_t>(body)) && std::ranges::none_of(scene.plugin_elements, pushes);
+}
+
 }  // namespace
 
 std::optional<GraspFigures> graspFigures(const RunResult& result) {
@@ -150,7 +158,7 @@ std::optional<GraspFigures> graspFigures(const RunResult& result) {
   figures.lift_height = height / static_cast<double>(hold.size()) - object.summary.start.z();
   figures.held_in_stick = longestStick(hold, figures.fingers, object.body, figures.hold_end);
 
-  figures.carried = !isJoined(result.world->scene.joints, static_cast<std::size_t>(object.body));
+  figures.carried = carriedByFingers(result.world->scene, object.body);
   if (figures.fingers.size() >= 2 && figures.carried) {
     figures.turn = graspTurn(*result.world, between(*result.trace, 0, figures.hold_end), figures.hold_begin,
                              {.first = figures.fingers[0].contact_point,

@@ -137,13 +137,15 @@ Verdict graspVerdict(const RunResult& result, const GraspFigures& figures) {
   const RunResult::Object& object = result.objects[figures.object];
   Verdict verdict;
   verdict.outcome = object.summary.dropped ? Verdict::Outcome::kBad : Verdict::Outcome::kGood;
-  verdict.headline = object.name +
-                     (figures.lifted ? " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm," : "") +
+  // the mean height of a hold means nothing for what flew away in it
+  const bool tell_height = figures.lifted && !object.summary.dropped;
+  verdict.headline = object.name + (object.summary.dropped ? " dropped," : "") +
+                     (tell_height ? " lifted by " + fixed(figures.lift_height * 1000, 1) + " mm," : "") +
                      " held in stick for " + fixed(figures.held_in_stick, 2) + " of " +
                      fixed(figures.hold_end - figures.hold_begin, 2) + " s" + turnWords(figures);
   if (verdict.outcome == Verdict::Outcome::kGood && (turned(figures) || buckled(figures)))
     verdict.outcome = Verdict::Outcome::kNeutral;
-  verdict.details = {offsetSentence(figures)};
+  if (!object.summary.dropped) verdict.details.push_back(offsetSentence(figures));
   if (const auto sentence = slipSentence(result, figures)) verdict.details.push_back(*sentence);
   if (const auto sentence = slipStepSentence(result, figures)) verdict.details.push_back(*sentence);
   if (turned(figures)) verdict.details.push_back(turnSentence(*figures.turn));

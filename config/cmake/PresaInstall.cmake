@@ -28,7 +28,8 @@ install(DIRECTORY config/cave config/meshes config/motions config/pictures confi
   DESTINATION share/presa/config PATTERN "*.py" EXCLUDE PATTERN "*.tsv" EXCLUDE)
 install(DIRECTORY experiments/ DESTINATION share/presa/experiments FILES_MATCHING
   PATTERN "*.xml" PATTERN "*.csv" PATTERN "*.obj" PATTERN "README.md")
-install(FILES README.md CHANGELOG.md LICENSE docs/exit_status.md docs/plugins.md DESTINATION share/doc/presa)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/presa)
+install(DIRECTORY docs/ DESTINATION share/doc/presa/docs FILES_MATCHING PATTERN "*.md" PATTERN _static EXCLUDE)
 
 # bash looks for completions of a program in the share folder beside its bin
 install(FILES config/shell/presa.bash DESTINATION share/bash-completion/completions RENAME presa)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/input/folders.h"
 
 namespace presa {
 namespace {
@@ -14,9 +15,9 @@ namespace fs = std::filesystem;
 std::vector<fs::path> candidates() {
   std::vector<fs::path> folders;
   if (const char* named = std::getenv("PRESA_EXPERIMENTS")) folders.emplace_back(named);
+  // of the source tree, or installed with the program
+  if (const std::string own = input::ownFolder("experiments"); !own.empty()) folders.emplace_back(own);
   std::error_code ignored;
-  fs::path up = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (int level = 0; level < 5 && !up.empty(); ++level, up = up.parent_path()) folders.push_back(up / "experiments");
   folders.push_back(fs::current_path(ignored) / "experiments");
   return folders;
 }

@@ -110,7 +110,7 @@ class Included {
 
 class Expansion {
  public:
-  explicit Expansion(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  Expansion(const xml::ElementRule& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
   void expand(Element root, const std::string& file) {
     open_.push_back(fs::weakly_canonical(file).string());
@@ -164,6 +164,7 @@ class Expansion {
       return refuse(kNotIncluded, include,
                     file + " is not written in format " + std::to_string(kFormatMajor) + ".x, which this release reads",
                     "presa check " + file + " tells what is wrong with it");
+    applyDefaults(document->root(), scene_, diagnostics_);
     expand(document->root(), file);
     resolveFiles(document->root(), folderOf(file));
     if (flooded_) return;
@@ -176,6 +177,7 @@ class Expansion {
     Included(include, document->root()).copyInto(root, diagnostics_);
   }
 
+  const xml::ElementRule& scene_;
   Diagnostics& diagnostics_;
   std::vector<std::string> open_;  // files that are being expanded, the outermost first
   std::size_t elements_ = 0;
@@ -184,10 +186,10 @@ class Expansion {
 
 }  // namespace
 
-void expandIncludes(xml::Document& document, bool from_file, Diagnostics& diagnostics) {
+void expandIncludes(xml::Document& document, const xml::ElementRule& scene, bool from_file, Diagnostics& diagnostics) {
   const std::vector<Element> includes = document.root().children("include");
   if (includes.empty()) return;
-  if (from_file) return Expansion(diagnostics).expand(document.root(), document.name());
+  if (from_file) return Expansion(scene, diagnostics).expand(document.root(), document.name());
   diagnostics.error(kNotIncluded, includes[0].where(), "only a scene in a file may include others",
                     "write the scene to a file");
 }

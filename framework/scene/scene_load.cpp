@@ -41,7 +41,8 @@ Scene loadDocument(xml::Document& document, bool from_file, const std::string& d
   Scene scene;
   scene.file = document.name();
   if (document.root().name() == sceneSchema().root().name) {
-    expandIncludes(document, from_file, diagnostics);
+    applyDefaults(document.root(), sceneSchema().root(), diagnostics);
+    expandIncludes(document, sceneSchema().root(), from_file, diagnostics);
     whole = diagnostics.errorCount() == errors_before;
     applyOverrides(document.root(), sceneSchema().root(), overrides, diagnostics);
   }

@@ -45,18 +45,6 @@ const ElementRule* listedElement(const ElementRule& rule) {
   return is_list ? rule.content[0].options[0] : nullptr;
 }
 
-/// The alternative of an attribute (mass and density, euler_deg and quat, preset and static): setting one removes the
-/// other.
-std::string rivalOf(const std::string& attribute) {
-  static const std::pair<const char*, const char*> kRivals[] = {
-      {"mass", "density"}, {"euler_deg", "quat"}, {"preset", "static"}};
-  for (const auto& [a, b] : kRivals) {
-    if (attribute == a) return b;
-    if (attribute == b) return a;
-  }
-  return {};
-}
-
 /// Follows one path through the document and the schema at the same time.
 class PathWalk {
  public:
@@ -232,6 +220,16 @@ class PathWalk {
 };
 
 }  // namespace
+
+std::string rivalOf(const std::string& attribute) {
+  static const std::pair<const char*, const char*> kRivals[] = {
+      {"mass", "density"}, {"euler_deg", "quat"}, {"preset", "static"}};
+  for (const auto& [a, b] : kRivals) {
+    if (attribute == a) return b;
+    if (attribute == b) return a;
+  }
+  return {};
+}
 
 void applyOverrides(const Element& root, const ElementRule& rule, const std::vector<Override>& overrides,
                     Diagnostics& diagnostics) {

@@ -27,8 +27,15 @@ inline std::optional<double> optionalNumber(const xml::Element& element, const s
 std::string resolvePath(const std::string& path, const std::string& directory);
 
 /// Copies what the files of `<include>` elements hold in front of these elements (E273 to E275). Files are read only on
-/// behalf of a document that was a file itself: `from_file`.
-void expandIncludes(xml::Document& document, bool from_file, Diagnostics& diagnostics);
+/// behalf of a document that was a file itself: `from_file`. Each file's `<defaults>` are for what stands in it.
+void expandIncludes(xml::Document& document, const xml::ElementRule& scene, bool from_file, Diagnostics& diagnostics);
+/// Gives bodies, joints, materials and devices what `<defaults>` has for them and they lack, and takes `<defaults>` and
+/// every attribute `class` out. `scene`: rule of the root. E277 unknown class, E278 what `<defaults>` cannot hold, W279 a
+/// class that nothing has.
+void applyDefaults(const xml::Element& root, const xml::ElementRule& scene, Diagnostics& diagnostics);
+/// The alternative of an attribute (mass and density, euler_deg and quat, preset and static), or "": one of them alone
+/// may be given.
+std::string rivalOf(const std::string& attribute);
 /// Takes the `<include>` elements themselves out, after they have been validated.
 void removeIncludes(const xml::Element& root);
 /// Writes each override into the document; an unknown path is error E202.

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Follows a page of the guide word for word, in an empty folder, with `presa` on the PATH.
 
-usage: page.py PAGE BUILD
-PAGE is a Markdown file of docs/, BUILD the build folder. Every fenced block must say what it is:
+usage: page.py PAGE BUILD [--installed PREFIX]
+PAGE is a Markdown file of docs/, BUILD the build folder; with --installed the program below PREFIX counts, as ~/.local, and blocks that
+build are followed, too. One shell runs all commands: `cd` and `export` stay. Every fenced block must say what it is:
 
   ```sh                 these commands run, and succeed; `sh exits=2`: the last one ends with status 2
   ```output             these lines stand in what the last `sh` printed, in this order; … is any text
@@ -23,6 +24,8 @@ from dataclasses import dataclass
 REASONS = {
     "installs packages",  # tests/outside and a bare Debian do that
     "builds from source",
+    "needs the source tree",
+    "needs a screen",
     "needs a device",
     "needs a second machine",
     "takes minutes",
@@ -96,19 +99,25 @@ def changed(text, diff):
 
 
 class Reader:
-    def __init__(self, folder, build):
-        self.folder = pathlib.Path(folder)
+    def __init__(self, folder, build, installed=None):
+        self.folder = pathlib.Path(folder, "page")
+        self.shell = pathlib.Path(folder, "shell")  # where the shell is, and its variables
         self.printed = None
         self.left_out = []
+        self.followed = {"builds from source"} if installed else set()
         self.environment = {
             **os.environ,
-            "PATH": f"{build}/bin:{os.environ['PATH']}",
+            "PATH": f"{installed or build}/bin:/usr/bin:{os.environ['PATH']}",
             "PYTHONPATH": f"{build}/python",
-            "HOME": str(self.folder / ".home"),
+            "HOME": f"{folder}/home",
             "MPLBACKEND": "Agg",
             "NO_COLOR": "1",
         }
-        (self.folder / ".home").mkdir()
+        self.folder.mkdir()
+        pathlib.Path(folder, "home").mkdir()
+        if installed:
+            pathlib.Path(folder, "home/.local").symlink_to(installed)
+        self.shell.write_text(f"cd {self.folder}\n", encoding="utf-8")
 
     def follow(self, block):
         if not block.info:
@@ -124,14 +133,15 @@ class Reader:
             self.save(block, rest)
 
     def run(self, block, rest):
-        if block.not_run:
+        if block.not_run and block.not_run not in self.followed:
             if block.not_run not in REASONS:
                 raise Wrong(f"'{block.not_run}' is no reason to leave a block out; there are: {', '.join(sorted(REASONS))}")
             self.left_out.append(f"line {block.line}: {block.not_run}")
             self.printed = None
             return
         expected = int(rest[0].removeprefix("exits=")) if rest else 0
-        done = subprocess.run(["bash", "-eo", "pipefail", "-c", block.text], cwd=self.folder, env=self.environment, text=True,
+        script = f"source {self.shell}\n{block.text}\n{{ export -p; printf 'cd %q\\n' \"$PWD\"; }} >{self.shell}"
+        done = subprocess.run(["bash", "-eo", "pipefail", "-c", script], env=self.environment, text=True,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS,
                               check=False)
         self.printed = done.stdout
@@ -161,8 +171,9 @@ class Reader:
 
 def main():
     page, build = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
+    installed = pathlib.Path(sys.argv[4]).resolve() if sys.argv[3:4] == ["--installed"] else None
     with tempfile.TemporaryDirectory(prefix=f"presa_page_{os.getpid()}_") as folder:
-        reader = Reader(folder, build)
+        reader = Reader(folder, build, installed)
         found = []
         try:
             found = blocks(page.read_text(encoding="utf-8"))

@@ -33,6 +33,11 @@ class Page(unittest.TestCase):
         for shown in ("other", "two\none", "one\none", "on"):
             self.assertEqual(follow(f"```sh\nprintf 'one\\ntwo\\n'\n```\n```output\n{shown}\n```\n")[0], 1, shown)
 
+    def test_the_shell_stays(self):
+        status, said = follow("```sh\nmkdir a\ncd a\nexport B='c d'\n```\n```sh\npwd\necho $B\n```\n```output\n…/a\nc d\n```\n"
+                              "```xml f\nx\n```\n```sh\ncat ../f\n```\n```output\nx\n```\n")
+        self.assertEqual(status, 0, said)
+
     def test_a_change(self):
         saved = "```xml f\na\nb\nc\n```\n"
         self.assertEqual(follow(saved + "```diff f\n a\n-b\n+B\n```\n```sh\ngrep -qx B f\n! grep -qx b f\n```\n")[0], 0)

@@ -20,3 +20,6 @@ refused "error[E597]: there is a plug-in 'magnet' already" "${bare[@]}" presa ne
 refused "error[E597]: <body> is an element of scenes already" "${bare[@]}" presa new effect body
 refused "error[E597]: 'Magnet' cannot be the name of a plug-in" "${bare[@]}" presa new effect Magnet
 refused "soft: error[E598]: exists already" "${bare[@]}" sh -c "mkdir soft; presa new effect soft"
+# shipped scenes and studies are found
+run presa check "$(run presa gallery cube --file)"
+shows "$(run presa stability --case mass_ratio --quick --out study)" "none is worse than expected"

@@ -4,6 +4,7 @@
 # against the package alone, runs its tests, and feels it in a scene.
 set -euo pipefail
 build=$1 kind=$2
+source_tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck source=tests/outside/support.sh
 source "$(dirname "${BASH_SOURCE[0]}")/support.sh"
 cp -r "$build/outside/usr" prefix
@@ -18,6 +19,9 @@ project() {  # NAME: its tests pass; the current folder becomes its own
   run ctest --test-dir build --output-on-failure --no-tests=error
   found=("${bare[@]}" "PRESA_PLUGIN_PATH=$PWD/build/lib/presa")
 }
+
+# the page that leads to a first effect, word for word
+page() { /usr/bin/python3 "$source_tree/tests/docs/page.py" "$source_tree/docs/plugins.md" "$build" --installed "$prefix"; }
 
 effect() {
   project soft_pull

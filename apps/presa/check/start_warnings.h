@@ -4,7 +4,7 @@
 namespace presa::check {
 
 /// Warns of what a scene that loads well may still mean wrong, each with a figure and a cure: W241 bodies that overlap at
-/// the start, W242 a mesh as large as if its millimetres were metres, W243 fingers of models that start far from every
+/// the start, W242 a mesh, or a body that moves, as large as if its millimetres were metres, W243 fingers of models that start far from every
 /// body; and as warnOfExplicitGrasps. Thread: main, before a run.
 void warnOfStart(const Loaded& loaded, Diagnostics& diagnostics);
 

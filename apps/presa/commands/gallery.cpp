@@ -21,7 +21,7 @@ constexpr std::size_t kColumns = 80;  // where the output is no terminal
 struct GalleryArguments {
   std::string name, page;
   std::string of_a_run;  ///< an option that only a run has, as given; empty: none
-  bool by_hand = false;
+  bool by_hand = false, file = false;
   RunArguments run;
 };
 
@@ -46,6 +46,11 @@ std::optional<std::size_t> check(const GalleryArguments& arguments, const std::v
   if (!scene && !arguments.of_a_run.empty() && !diagnostics.hasErrors())
     diagnostics.error(123, {arguments.of_a_run, 0, 0}, "belongs to the run of a scene, and no scene is named",
                       "presa gallery NAME " + arguments.of_a_run + " …; presa gallery lists the names");
+  if (arguments.file && (!scene || !arguments.of_a_run.empty()) && !diagnostics.hasErrors())
+    diagnostics.error(
+        123, {"--file", 0, 0},
+        "tells where one scene lies and runs nothing, found " + (scene ? arguments.of_a_run : std::string("no name")),
+        "presa gallery cube --file");
   if (arguments.page.empty()) return scene;
   if (scene)
     diagnostics.error(123, {"--page", 0, 0}, "shows all scenes, found the name " + quote(arguments.name),
@@ -67,6 +72,10 @@ int show(const GalleryArguments& arguments) {
     std::printf("%s: %zu scenes\n", printable(arguments.page).c_str(), entries.size());
     return kExitOk;
   }
+  if (scene && arguments.file) {
+    std::printf("%s\n", entries[*scene].file.c_str());
+    return kExitOk;
+  }
   if (scene) return gallery::play(entries, *scene, arguments.by_hand, arguments.run);
   const std::size_t columns = terminal::columnsOf(stdout);
   std::fputs(gallery::listing(entries, columns > 0 ? columns : kColumns, wantsColor(stdout)).c_str(), stdout);
@@ -81,6 +90,7 @@ void addGallery(Command app, int& status) {
   Command command = app.command("gallery", "List the shipped scenes, each with its one idea, or run one by its name");
   command.option("NAME", a->name, "scene to run, such as cube; without a name the scenes are listed");
   command.option("--page", a->page, "write the list with pictures as one HTML file, which needs no network");
+  command.flag("--file", a->file, "print where the scene lies, for other commands; nothing runs");
   Option mouse = command.flag("--mouse", a->by_hand,
                               "mouse and keys move the fingers (key ? of the window lists them); in scenes with more\n"
                               "than one hand, the other one keeps its motion");
@@ -97,7 +107,8 @@ void addGallery(Command app, int& status) {
       "           presa gallery tripod\n"
       "           presa gallery cube --mouse\n"
       "           presa gallery incline --lockstep --for 6 --report incline.html\n"
-      "           presa gallery --page gallery.html");
+      "           presa gallery --page gallery.html\n"
+      "           presa explain $(presa gallery cube --file)");
   command.action([a, command, &status] {
     a->of_a_run = optionOfARun(command);
     status = show(*a);

@@ -52,7 +52,9 @@ std::optional<Imported> importRobot(const Wanted& wanted, Diagnostics& diagnosti
   }
   Imported imported{sceneName(source->name), {}, source->left_out.all()};
   imported.files = sceneOf(
-      robot, {imported.name, fs::path(wanted.file).filename().string(), source->root, wanted.stiffness}, diagnostics);
+      robot,
+      {imported.name, fs::path(wanted.file).filename().string(), source->root, source->carried, wanted.stiffness},
+      diagnostics);
   if (diagnostics.hasErrors()) return std::nullopt;
   return imported;
 }

@@ -184,7 +184,17 @@ class Writer {
     const bool colours = std::ranges::any_of(felt, [&](const Part& p) { return p.color != felt.front().color; });
     if (!drawn.empty() || colours) text += visual(drawn.empty() ? felt : drawn, name);
     if (!felt.empty()) text += haptic(felt, name);
-    return text + physics(solid, inertiaText(link), name) + "  </body>\n";
+    return text + physics(solid, inertiaText(link), name) + carried(link) + "  </body>\n";
+  }
+
+  /// A share above 1 would lift the link: it ends at 1, with a note.
+  std::string carried(const Link& link) {
+    const auto found = settings_.carried.find(link.name);
+    if (found == settings_.carried.end() || found->second <= 0) return {};
+    if (found->second > 1) files_.notes.push_back("'" + link.name + "': gravcomp counts up to 1");
+    const double weight = link.mass * robot_.gravity.norm();
+    return "    <gravity_compensation" + numberText("share", std::min(1.0, found->second)) +
+           numberText("max_force", std::clamp(2 * weight, 1.0, 1000.0)) + "/>\n";
   }
 
   static std::string inertiaText(const Link& link) {

@@ -9,10 +9,11 @@
 namespace presa::robot {
 
 struct SceneSettings {
-  std::string name;         ///< of the scene and of its files
-  std::string source;       ///< file that the robot was read from, for the description
-  std::string root;         ///< link that is fixed to the world; empty: none
-  double stiffness = 1000;  ///< of all surfaces under a finger [N/m]
+  std::string name;                       ///< of the scene and of its files
+  std::string source;                     ///< file that the robot was read from, for the description
+  std::string root;                       ///< link that is fixed to the world; empty: none
+  std::map<std::string, double> carried;  ///< share of a link's weight that something else carries, by its name
+  double stiffness = 1000;                ///< of all surfaces under a finger [N/m]
 };
 
 /// A scene, its rig and its meshes, and what of the robot is not in them.

@@ -68,7 +68,7 @@ class Preparation {
   void mjcf(xml::Element root);
   void include(const xml::Element& in, int depth);
   void mjcfAssets(const xml::Element& root);
-  void mjcfBody(const xml::Element& body);
+  void mjcfBody(xml::Element body);
   void defaults(const xml::Element& of);
   xml::Element compiler(xml::Element root);
   std::string packageFile(const std::string& name, const SourceLocation& where);
@@ -228,7 +228,13 @@ void Preparation::mjcfAssets(const xml::Element& root) {
   }
 }
 
-void Preparation::mjcfBody(const xml::Element& body) {
+void Preparation::mjcfBody(xml::Element body) {
+  // a later version of MJCF has it
+  if (body.hasAttribute("gravcomp")) {
+    if (!body.hasAttribute("name")) body.setAttribute("name", "carried_" + std::to_string(source_.carried.size() + 1));
+    source_.carried[body.attribute("name")] = body.number("gravcomp", 0);
+    body.removeAttribute("gravcomp");
+  }
   drop(body, {"site", "camera", "light", "plugin"});
   for (xml::Element& geom : body.children("geom")) {
     if (geom.attribute("type") != "hfield") continue;

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct SourceOptions {
 /// folder, and what Presa's scenes do not have is taken out. All files are opened through framework/input.
 struct Source {
   std::string name;                         ///< of the model, as the file says, else of the file
+  std::map<std::string, double> carried;    ///< share of a link's weight that MJCF's gravcomp takes, by its name
   std::string root;                         ///< link of a URDF that is fixed to the world; empty: none
   std::unique_ptr<xml::Document> document;  ///< as it is written to `file`
   std::filesystem::path file;               ///< in the scratch folder

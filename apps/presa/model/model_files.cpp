@@ -26,6 +26,10 @@ std::string pieceFile(const std::string& name, std::size_t i) {
 }
 std::string bodyFile(const std::string& name) { return name + "_body.xml"; }
 
+bool isWithin(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
 std::string millimetres(double length) { return terminal::format("%.3g mm", 1e3 * length); }
 
 }  // namespace
@@ -59,15 +63,29 @@ std::optional<Made> make(const Wanted& wanted, Diagnostics& diagnostics, const G
   return made;
 }
 
+std::string sceneFolder(const Wanted& wanted) {
+  const fs::path model = fs::weakly_canonical(wanted.file).parent_path(), out = fs::weakly_canonical(wanted.folder);
+  return isWithin(out, model) ? model.string() : out.string();
+}
+
+bool liesOutside(const Wanted& wanted) {
+  return !isWithin(fs::weakly_canonical(wanted.file), sceneFolder(wanted));
+}
+
 std::string bodyText(const Wanted& wanted, const Made& made) {
-  const std::string visual = fs::proximate(wanted.file, wanted.folder).generic_string();
+  const fs::path home = sceneFolder(wanted);
+  const std::string visual = fs::weakly_canonical(wanted.file).lexically_proximate(home).generic_string();
+  const auto mesh = [&](const std::string& file) {
+    const fs::path path = fs::weakly_canonical(wanted.folder) / file;
+    return "<mesh file=\"" + xml::escaped(path.lexically_proximate(home).generic_string()) + "\"/>";
+  };
   const std::string scale =
       wanted.scale == 1 ? "" : terminal::format(" scale=\"%.9g %.9g %.9g\"", wanted.scale, wanted.scale, wanted.scale);
   std::string text = "<body name=\"" + made.name + "\">\n  <visual><mesh file=\"" + xml::escaped(visual) + "\"" +
-                     scale + "/></visual>\n  <haptic><mesh file=\"" + hapticFile(made.name) + "\"/></haptic>\n" +
+                     scale + "/></visual>\n  <haptic>" + mesh(hapticFile(made.name)) + "</haptic>\n" +
                      terminal::format("  <physics density=\"%.9g\">\n", wanted.density);
   for (std::size_t i = 0; i < made.physics.pieces.size(); ++i)
-    text += "    <mesh file=\"" + pieceFile(made.name, i) + "\"/>\n";
+    text += "    " + mesh(pieceFile(made.name, i)) + "\n";
   return text + "  </physics>\n</body>\n";
 }
 
@@ -81,6 +99,9 @@ std::string write(const Wanted& wanted, const Made& made) {
   put(hapticFile(made.name), objText(made.haptic.mesh));
   for (std::size_t i = 0; i < made.physics.pieces.size(); ++i)
     put(pieceFile(made.name, i), objText(made.physics.pieces[i], 9));
+  // a run before may have made more of them
+  std::size_t stale = made.physics.pieces.size();
+  while (fs::remove(fs::path(wanted.folder) / pieceFile(made.name, stale))) ++stale;
   return put(bodyFile(made.name), bodyText(wanted, made));
 }
 

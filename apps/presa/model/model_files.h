@@ -30,7 +30,12 @@ std::optional<Made> make(const Wanted& wanted, Diagnostics& diagnostics, const G
 void checkTarget(const Wanted& wanted, Diagnostics& diagnostics);
 /// Writes all files, the body last, and returns its path. Throws std::system_error.
 std::string write(const Wanted& wanted, const Made& made);
-/// The element <body>.
+/// Where a scene lies that may name all files of the body: the model's folder if the output is in it or below, else the
+/// folder of the output.
+std::string sceneFolder(const Wanted& wanted);
+/// Whether the model itself lies elsewhere, so that a scene there may not name it (E692).
+bool liesOutside(const Wanted& wanted);
+/// The element <body>, for a scene in sceneFolder.
 std::string bodyText(const Wanted& wanted, const Made& made);
 /// What was made, for people: a line for each figure.
 std::string figuresText(const Made& made);

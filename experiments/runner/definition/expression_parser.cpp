@@ -13,7 +13,7 @@ struct Syntax {
   std::string message, help;
 };
 struct Unknown {
-  std::string message;
+  std::string message, help;
 };
 
 }  // namespace
@@ -157,7 +157,7 @@ class ExpressionParser {
     advance();
     if (token_ == "(") return call(name, start);
     const auto slot = names_->find(name);
-    if (!slot) throw Unknown{"unknown name " + quote(name) + didYouMean(name, names_->all())};
+    if (!slot) throw Unknown{"unknown name " + quote(name) + didYouMean(name, names_->all()), namesHelp()};
     push({Code::kSlot, 0, *slot});
   }
   void number() {
@@ -216,12 +216,26 @@ class ExpressionParser {
 
   std::size_t phase() {
     const auto found = std::find(phases_->begin(), phases_->end(), token_);
-    if (found == phases_->end()) throw Unknown{"there is no phase " + quote(token_) + didYouMean(token_, *phases_)};
+    if (found == phases_->end()) throw Unknown{"there is no phase " + quote(token_) + didYouMean(token_, *phases_), listed("phases: ", *phases_)};
     advance();
     return static_cast<std::size_t>(found - phases_->begin());
   }
 
   // compiles an expression over samples inside an expression over measures
+  static std::string listed(std::string what, const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 40;
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) what += (i == 0 ? "" : ", ") + names[i];
+    return names.size() > kMost ? what + ", …" : what;
+  }
+
+  /// What the reader may write in the place of an unknown name.
+  std::string namesHelp() const {
+    const std::string minus = token_ == "-" ? "a name with '-' cannot stand in an expression: '-' subtracts; " : "";
+    return minus + listed(samples_ != nullptr && names_ == samples_ ? "inside of an aggregate only samples count: "
+                                                                   : "names: ",
+                          names_->all());
+  }
+
   Expression inner() {
     Expression outer = std::exchange(out_, {});
     const std::size_t depth = std::exchange(depth_, 0);
@@ -254,7 +268,7 @@ std::optional<Expression> Expression::compile(const std::string& text, const Sym
                       "at character " + std::to_string(error.at + 1) + " of " + quote(text) + ": " + error.message,
                       error.help);
   } catch (const Unknown& error) {
-    diagnostics.error(902, where, error.message);
+    diagnostics.error(902, where, error.message, error.help);
   }
   return std::nullopt;
 }

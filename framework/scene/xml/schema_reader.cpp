@@ -144,6 +144,7 @@ void SchemaReader::readGroup(const xmlNode* node, ElementRule& rule) {
 
 void SchemaReader::readRepeatedChoice(const xmlNode* node, ElementRule& rule) {
   for (const xmlNode* child : childElements(node)) {
+    if (localName(child) == "any") continue;  // what stands there is checked by whoever reads it
     const auto [min, max] = statedOccurrence(child);
     rule.content.push_back({{readElement(child)}, min, max});
   }

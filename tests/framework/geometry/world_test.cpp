@@ -85,6 +85,26 @@ TEST(Inertia, OfADumbbellIsTheSumOfItsShapes) {
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
+// What a scene gives replaces what the shapes have.
+TEST(Inertia, OfTheSceneCounts) {
+  Body body = freeBody(Box{{0.1, 0.2, 0.4}}, 0.6);
+  body.p_BCm = Vec3(0.01, 0, 0.02);
+  Mat3 given;
+  given << 3, 0.1, 0, 0.1, 4, 0, 0, 0, 5;
+  body.inertia_B = 1e-3 * given;
+  Diagnostics diagnostics;
+  const BodyInertia found = inertiaOf(body, {}, diagnostics);
+  EXPECT_EQ(found.mass, 0.6);
+  EXPECT_EQ(found.p_BCm, *body.p_BCm);
+  EXPECT_EQ(found.inertia, *body.inertia_B);
+  EXPECT_TRUE(diagnostics.all().empty());
+  // a moment larger than the sum of the others
+  body.inertia_B = Vec3(1e-3, 1e-3, 3e-3).asDiagonal();
+  EXPECT_EQ(inertiaOf(body, {}, diagnostics).mass, 0);
+  ASSERT_TRUE(diagnostics.hasErrors());
+  EXPECT_EQ(diagnostics.all().front().code, 321);
+}
+
 TEST(Inertia, RefusesWhatCannotMove) {
   for (const Body& body : {freeBody(Box{{0.1, 0, 0.1}}, 1), freeBody(Sphere{0.1}, -1), freeBody(Sphere{0.1}, 0)}) {
     Diagnostics diagnostics;

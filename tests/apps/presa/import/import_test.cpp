@@ -151,6 +151,9 @@ TEST_F(Import, MjcfHasItsDefaultsFramesAndIncludes) {
   EXPECT_NEAR(world_->scene.materialOf(body("egg")).friction_static, 0.3, kText);
   EXPECT_NEAR(world_->scene.materialOf(body("ball")).friction_static, 0.7, kText);
   EXPECT_NEAR(inertia("egg").mass, 500 * 4.0 / 3 * pi * 0.02 * 0.03 * 0.04, 1e-6);
+  ASSERT_EQ(world_->scene.plugin_elements.size(), 1u);
+  EXPECT_EQ(world_->scene.plugin_elements[0].body, static_cast<std::int32_t>(indexOf("egg")));
+  EXPECT_EQ(world_->scene.plugin_elements[0].number("share"), 0.5);
   // of a class of defaults
   const JointAxis& rail = joint("rail").axes[0];
   EXPECT_NEAR(rail.stiffness, 20, kText);
