@@ -50,6 +50,13 @@ class Site(unittest.TestCase):
     def test_the_interface_of_plug_ins(self):
         self.assertTrue((self.out / "api/index.html").exists())
 
+    def test_every_package_of_a_run_has_its_license_named(self):
+        page = (ROOT / "docs/third_party.md").read_text(encoding="utf-8")
+        wanted = re.search(r"^\[base\]$(.*?)^\[", (ROOT / "config/packages.txt").read_text(encoding="utf-8"), re.M | re.S)[1]
+        packages = [line.split()[0] for line in wanted.splitlines() if line.strip() and not line.startswith("#")]
+        self.assertGreater(len(packages), 20)
+        self.assertEqual([package for package in packages if f"`{package}`" not in page], [])
+
     def test_every_link_of_every_page_leads_somewhere(self):
         dead = []
         for page in self.out.rglob("*.html"):

@@ -71,6 +71,9 @@ std::string numberHelp(const std::string& word) {
 std::optional<ValueProblem> numberProblem(const ValueRule& rule, const std::string& value) {
   const std::vector<std::string> words = splitWords(value);
   const std::string must = "must be " + describe(rule) + ", found ";
+  if (rule.count == 1 && words.size() > 1)
+    return ValueProblem{kWrongKind, must + quote(value),
+                        "write one number, without a unit: SI units count (m, kg, s, N)"};
   const std::string within = rule.count != 1 ? " in " + quote(value) : "";
   for (const std::string& word : words) {
     double number = 0;
@@ -82,7 +85,7 @@ std::optional<ValueProblem> numberProblem(const ValueRule& rule, const std::stri
     if (!inRange(rule, number)) return ValueProblem{kOutOfRange, must + quote(word) + within, {}};
   }
   if (rule.count == 0 ? !words.empty() : words.size() == rule.count) return std::nullopt;
-  if (rule.count == 1) return ValueProblem{kWrongKind, must + quote(value), {}};
+  if (rule.count == 1) return ValueProblem{kWrongKind, must + quote(value), {}};  // empty
   return ValueProblem{kWrongCount, must + std::to_string(words.size()) + within, {}};
 }
 

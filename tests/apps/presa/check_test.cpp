@@ -126,6 +126,20 @@ TEST(Check, WarnsOfMillimetresTakenForMetres) {
   EXPECT_NE(outcome.err.find("help: scale=\"1 1 1\" makes it 0.1 m wide"), std::string::npos) << outcome.err;
 }
 
+// A hall that stands still may be that large.
+TEST(Check, WarnsOfABodyAsLargeAsAHouse) {
+  const std::string scene = scratch("house.xml");
+  std::ofstream(scene) << R"(<scene version="1.0" name="t"><world gravity="0 0 -9.81"/>
+    <materials><material name="m" stiffness="500"/></materials>
+    <body name="hall" fixed="true"><haptic><box size="50 100 80"/></haptic></body>
+    <body name="block"><physics mass="1"><box size="50 100 80"/></physics></body></scene>)";
+  const auto outcome = presa("check " + scene);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning[W242]: 'block' is 100 m wide"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("0.1 m for 100 mm"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("'hall' is"), std::string::npos) << outcome.err;
+}
+
 // The time of a step is measured; here it is given, as tests have no clock.
 TEST(Check, WarnsOfMeshesThatDoNotKeepThePeriod) {
   const auto world = worldOf("<body name=\"cup\"><physics mass=\"0.1\"><mesh file=\"" +
