@@ -164,6 +164,7 @@ class Expansion {
       return refuse(kNotIncluded, include,
                     file + " is not written in format " + std::to_string(kFormatMajor) + ".x, which this release reads",
                     "presa check " + file + " tells what is wrong with it");
+    upgrade(document->root());
     applyDefaults(document->root(), scene_, diagnostics_);
     expand(document->root(), file);
     resolveFiles(document->root(), folderOf(file));

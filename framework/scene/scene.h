@@ -159,7 +159,6 @@ struct CollisionSettings {
   enum class Index { kTree, kObb, kHcollide };
   Index index = Index::kTree;  ///< of haptic meshes
   double margin = 0;  ///< extent of the neighbourhood beyond the fingertip [m]; 0: chosen from the finger's motion
-  std::size_t max_triangles = 0;  ///< no effect; accepted for older scenes
 };
 
 /// Dynamics methods. The defaults are Presa's methods; the other values select the conventional ones for comparison.

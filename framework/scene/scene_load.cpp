@@ -41,6 +41,7 @@ Scene loadDocument(xml::Document& document, bool from_file, const std::string& d
   Scene scene;
   scene.file = document.name();
   if (document.root().name() == sceneSchema().root().name) {
+    upgrade(document.root());
     applyDefaults(document.root(), sceneSchema().root(), diagnostics);
     expandIncludes(document, sceneSchema().root(), from_file, diagnostics);
     whole = diagnostics.errorCount() == errors_before;

@@ -12,10 +12,14 @@ namespace presa {
 
 /// The document format this release reads.
 inline constexpr int kFormatMajor = 1;
-inline constexpr int kFormatMinor = 0;  ///< the second number of the format
+inline constexpr int kFormatMinor = 1;  ///< the second number of the format
 /// The major version must match; a newer minor version gives a warning. `kind`: "scene" or "rig"; `code`: number to
 /// report.
 void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics);
+
+/// Turns a scene of an older format 1.x into one of this release; other texts stay as they are. Returns whether names had
+/// to be changed.
+bool upgrade(xml::Element root);
 
 /// The number in an attribute, or none when the attribute is absent.
 inline std::optional<double> optionalNumber(const xml::Element& element, const std::string& attribute) {

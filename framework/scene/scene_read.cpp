@@ -228,7 +228,6 @@ CollisionSettings readCollision(const Element& element) {
   settings.index =
       choose(element, "index", settings.index, {{"obb", C::Index::kObb}, {"hcollide", C::Index::kHcollide}});
   settings.margin = element.number("margin", 0);
-  settings.max_triangles = static_cast<std::size_t>(element.number("max_triangles", 0));
   return settings;
 }
 

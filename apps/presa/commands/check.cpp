@@ -11,6 +11,7 @@
 #include "apps/presa/check/start_warnings.h"
 #include "apps/presa/commands/commands.h"
 #include "framework/scene/decompositions.h"
+#include "framework/scene/scene_parts.h"
 #include "framework/session/load_world.h"
 
 namespace presa {
@@ -20,7 +21,7 @@ struct CheckArguments {
   std::vector<std::string> files;
   std::string rig, format = "text";
   std::vector<std::string> sets;
-  bool print_resolved = false;
+  bool print_resolved = false, print_upgraded = false;
 };
 
 /// What was found about one file.
@@ -134,6 +135,25 @@ int checkAll(const CheckArguments& arguments) {
   return good ? kExitOk : kExitBadInput;
 }
 
+/// Scenes in the format of this release, with their comments; nothing else about them is checked.
+int printUpgraded(const CheckArguments& arguments) {
+  Diagnostics diagnostics;
+  for (const std::string& file : arguments.files) {
+    const auto document = xml::Document::load(file, diagnostics);
+    if (document == nullptr) continue;
+    if (document->root().name() != "scene") {
+      diagnostics.error(123, document->root().where(),
+                        "--print-upgraded is for scenes, found <" + document->root().name() + ">",
+                        "rigs, motions and experiments have had one format so far");
+      continue;
+    }
+    upgrade(document->root());
+    std::fputs(document->text().c_str(), stdout);
+  }
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return diagnostics.hasErrors() ? kExitBadInput : kExitOk;
+}
+
 }  // namespace
 
 void addCheck(Command app, int& status) {
@@ -147,11 +167,14 @@ void addCheck(Command app, int& status) {
   command.flag("--print-resolved", arguments->print_resolved,
                "print scenes as they are read: what they include in its place, all defaults, absolute paths; nothing "
                "of other files");
+  command.flag("--print-upgraded", arguments->print_upgraded,
+               "print scenes of an older format in that of this release, and check nothing");
   command.option("--format", arguments->format, "text or json").oneOf({"text", "json"});
   command.footer(
       "A rig and a motion are checked without a scene.\nExit status: 0 every file is good, 2 otherwise.\n"
       "Example:  presa check config/scenes/*.xml config/rigs/*.xml config/motions/*");
-  command.action([arguments, &status] { status = checkAll(*arguments); });
+  command.action(
+      [arguments, &status] { status = arguments->print_upgraded ? printUpgraded(*arguments) : checkAll(*arguments); });
 }
 
 }  // namespace presa

@@ -126,6 +126,18 @@ TEST(Check, WarnsOfMillimetresTakenForMetres) {
   EXPECT_NE(outcome.err.find("help: scale=\"1 1 1\" makes it 0.1 m wide"), std::string::npos) << outcome.err;
 }
 
+TEST(Check, PrintsAnOldSceneInTheFormatOfToday) {
+  const std::string scene = scratch("old.xml");
+  std::ofstream(scene) << "<scene version=\"1.0\" name=\"t\"><!-- kept --><world gravity=\"0 0 -1\"/>"
+                          "<collision max_triangles=\"9\" margin=\"0.001\"/></scene>";
+  const auto outcome = presa("check --print-upgraded " + scene);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("version=\"1.1\""), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("<!-- kept -->"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("<collision margin=\"0.001\"/>"), std::string::npos) << outcome.out;
+  EXPECT_EQ(presa("check --print-upgraded " + source("config/rigs/pinch_cube.xml")).status, 2);
+}
+
 // A hall that stands still may be that large.
 TEST(Check, WarnsOfABodyAsLargeAsAHouse) {
   const std::string scene = scratch("house.xml");
