@@ -5,8 +5,11 @@
 
 namespace presa {
 
-/// Any text as a name that scenes allow: letters, digits and _ - . after a letter or _. Empty: "_".
+/// Any text as a name that scenes and file systems allow: up to 100 letters, digits and _ - . after a letter or _.
+/// Empty: "_".
 inline std::string sceneName(std::string text) {
+  constexpr std::size_t kLongest = 100;
+  text.resize(std::min(text.size(), kLongest));
   const auto fits = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
   };

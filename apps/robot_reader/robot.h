@@ -51,6 +51,7 @@ struct Link {
 
 struct Robot {
   Vec3 gravity = Vec3::Zero();     ///< [m/s^2]
+  bool masked = false;             ///< bits keep some solids from meeting others
   std::vector<Link> links;         ///< the first is the world; a parent stands before its children
   std::vector<TriMesh> meshes;     ///< in the frames of their parts
   std::vector<std::string> names;  ///< of the meshes

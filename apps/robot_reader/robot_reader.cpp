@@ -1,9 +1,11 @@
 // Reads URDF and MJCF with MuJoCo: its compiler resolves classes of defaults, frames, inertias and units.
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "apps/robot_reader/robot.h"
@@ -51,7 +53,8 @@ class Reading {
 
   Robot robot() const {
     Robot robot;
-    robot.gravity = vec(m_.opt.gravity);
+    if ((m_.opt.disableflags & mjDSBL_GRAVITY) == 0) robot.gravity = vec(m_.opt.gravity);
+    robot.masked = masksSeparate();
     for (int i = 0; i < m_.nmesh; ++i) {
       robot.meshes.push_back(mesh(i));
       robot.names.push_back(nameOf(mjOBJ_MESH, i));
@@ -107,13 +110,26 @@ class Reading {
     return f;
   }
 
+  /// Whether bits keep some solids from meeting others that they would meet in a scene.
+  bool masksSeparate() const {
+    std::set<std::pair<int, int>> masks;
+    for (int i = 0; i < m_.ngeom; ++i) {
+      if (m_.geom_contype[i] != 0 || m_.geom_conaffinity[i] != 0)
+        masks.insert({m_.geom_contype[i], m_.geom_conaffinity[i]});
+    }
+    for (const auto& a : masks)
+      for (const auto& b : masks)
+        if ((a.first & b.second) == 0 && (b.first & a.second) == 0) return true;
+    return false;
+  }
+
   Part part(int i) const {
     Part part;
     part.name = nameOf(mjOBJ_GEOM, i);
     part.X_LG = pose(m_.geom_pos + 3 * i, m_.geom_quat + 4 * i);
-    part.friction = m_.geom_friction[3 * i];
+    part.friction = m_.geom_condim[i] == 1 ? 0 : m_.geom_friction[3 * i];
     part.collides = m_.geom_contype[i] != 0 || m_.geom_conaffinity[i] != 0;
-    part.color = vec(colorOf(i)).unaryExpr([](double c) { return srgb::toLinear(c); });
+    part.color = vec(colorOf(i)).unaryExpr([](double c) { return srgb::toLinear(std::clamp(c, 0.0, 1.0)); });
     const Vec3 size = vec(m_.geom_size + 3 * i);
     switch (m_.geom_type[i]) {
       case mjGEOM_PLANE:
@@ -175,7 +191,7 @@ std::string read(const std::string& file, Robot& robot) {
     const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()), mj_deleteData);
     robot = Reading(*model, *data).robot();
     return {};
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     return error.what();
   }
 }

@@ -32,17 +32,21 @@ const ElementRule* ruleOf(const ElementRule& scene, const std::string& kind) {
   return list == nullptr ? nullptr : list->child(kind);
 }
 
-/// Attributes of `from` that `to` lacks.
+/// Attributes of `from` that `to` lacks. An inertia goes with its mass: an element with a mass of its own takes none.
 void fillAttributes(Element to, const Element& from) {
+  const bool has_mass = to.hasAttribute("mass") || to.hasAttribute("density");
   for (const std::string& name : from.attributeNames()) {
+    if (has_mass && (name == "inertia" || name == "center")) continue;
     const std::string rival = rivalOf(name);
     if (name == "class" || to.hasAttribute(name) || (!rival.empty() && to.hasAttribute(rival))) continue;
     to.setAttribute(name, from.attribute(name), from.where(name));
   }
 }
 
-/// Attributes and children of `from` that `to` lacks; a child that is there takes attributes alone.
-void fill(Element to, const Element& from) {
+/// Attributes and children of `from` that `to` lacks; a child that is there takes attributes alone. Returns how many
+/// elements came.
+std::size_t fill(Element to, const Element& from) {
+  std::size_t came = 0;
   fillAttributes(to, from);
   std::set<std::string> own;
   for (const Element& child : to.children()) own.insert(child.name());
@@ -50,11 +54,12 @@ void fill(Element to, const Element& from) {
   for (const Element& child : from.children()) {
     const bool first = seen.insert(child.name()).second;
     if (!own.contains(child.name())) {
-      to.addCopy(child);
+      came += elementsIn(to.addCopy(child));
     } else if (first) {
       for (const Element& existing : to.children(child.name())) fillAttributes(existing, child);
     }
   }
+  return came;
 }
 
 /// The <defaults> of one document.
@@ -64,10 +69,17 @@ class Defaults {
       : root_(root), scene_(scene), diagnostics_(diagnostics) {}
 
   void apply() {
-    for (const Element& list : root_.children("defaults"))
+    for (const Element& list : root_.children("defaults")) {
+      for (const std::string& name : list.attributeNames())
+        refuse(list.where(name), "<defaults> has no attribute " + quote(name), "");
       for (const Element& given : list.children()) take(given);
+    }
     for (const std::string& kind : kinds())
       for (const Element& element : elementsOf(root_, kind)) give(element);
+    if (copied_ > kMostCopied)
+      refuse(root_.children("defaults")[0].where(),
+             "<defaults> brings more than " + std::to_string(kMostCopied) + " elements",
+             "give fewer elements, or to fewer");
     for (const auto& [key, given] : templates_) {
       if (key.second.empty() || used_.contains(key)) continue;
       diagnostics_.warning(kUnused, given.where("class"), "no <" + key.first + "> has class " + quote(key.second),
@@ -100,7 +112,6 @@ class Defaults {
   /// Mistakes are told once, here, and not again by every element that takes them.
   void check(Element given, const ElementRule& rule) {
     for (const std::string& name : given.attributeNames()) {
-      if (name == "class") continue;
       const xml::AttributeRule* const attribute = rule.attribute(name);
       if (attribute == nullptr)
         refuse(given.where(name),
@@ -124,15 +135,16 @@ class Defaults {
   }
 
   void give(Element element) {
+    if (copied_ > kMostCopied) return;
     const std::string kind = element.name(), named = element.attribute("class");
     if (const auto found = templates_.find({kind, named}); found != templates_.end()) {
-      fill(element, found->second);
+      copied_ += fill(element, found->second);
       used_.insert(found->first);
     } else if (element.hasAttribute("class")) {
       refuseClass(element, kind, named);
     }
     if (const auto found = templates_.find({kind, ""}); found != templates_.end() && !named.empty())
-      fill(element, found->second);
+      copied_ += fill(element, found->second);
     element.removeAttribute("class");
   }
 
@@ -156,6 +168,7 @@ class Defaults {
   Diagnostics& diagnostics_;
   std::map<Key, Element> templates_;
   std::set<Key> used_;
+  std::size_t copied_ = 0;  // elements
 };
 
 }  // namespace

@@ -16,17 +16,10 @@ using xml::Element;
 
 enum IncludeCode { kNotIncluded = 273, kEndless = 274, kStays = 275 };
 
-constexpr std::size_t kDeepest = 8;             // files that include each other
-constexpr std::size_t kMostElements = 200'000;  // in all copies together
+constexpr std::size_t kDeepest = 8;  // files that include each other
 
 std::string join(const Vec3& v) {
   return xml::numberText(v.x()) + " " + xml::numberText(v.y()) + " " + xml::numberText(v.z());
-}
-
-std::size_t countOf(const Element& element) {
-  std::size_t count = 1;
-  for (const Element& child : element.children()) count += countOf(child);
-  return count;
 }
 
 /// The copies of one file, and what its <include> changes in them.
@@ -169,11 +162,11 @@ class Expansion {
     expand(document->root(), file);
     resolveFiles(document->root(), folderOf(file));
     if (flooded_) return;
-    elements_ += countOf(document->root());
-    flooded_ = elements_ > kMostElements;
+    elements_ += elementsIn(document->root());
+    flooded_ = elements_ > kMostCopied;
     if (flooded_)
       return refuse(kEndless, include,
-                    "with this file, includes bring more than " + std::to_string(kMostElements) + " elements",
+                    "with this file, includes bring more than " + std::to_string(kMostCopied) + " elements",
                     "include fewer or smaller files");
     Included(include, document->root()).copyInto(root, diagnostics_);
   }
@@ -186,6 +179,12 @@ class Expansion {
 };
 
 }  // namespace
+
+std::size_t elementsIn(const xml::Element& element) {
+  std::size_t count = 1;
+  for (const Element& child : element.children()) count += elementsIn(child);
+  return count;
+}
 
 void expandIncludes(xml::Document& document, const xml::ElementRule& scene, bool from_file, Diagnostics& diagnostics) {
   const std::vector<Element> includes = document.root().children("include");

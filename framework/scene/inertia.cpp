@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
+#include "framework/scene/xml/value_rule.h"
+
 namespace presa {
 namespace {
 
@@ -10,6 +12,7 @@ using std::numbers::pi;
 
 /// Principal moments of a real body obey the triangle inequality; allowance for rounding [-].
 constexpr double kInequalitySlack = 1e-9;
+constexpr double kGivenSlack = 1e-6;  // for an inertia that somebody wrote in decimals
 
 MassProperties centred(double volume, const Vec3& moments) { return {volume, Vec3::Zero(), moments.asDiagonal()}; }
 
@@ -41,10 +44,14 @@ MassProperties of(const Capsule& capsule) {
   return centred(middle.volume + caps.volume, {across, across, middle.inertia(2, 2) + caps.inertia(2, 2)});
 }
 
-bool physical(const BodyInertia& inertia) {
+Vec3 principalMoments(const Mat3& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+bool physical(const BodyInertia& inertia, double slack) {
   if (!(inertia.mass > 0) || !inertia.p_BCm.allFinite() || !inertia.inertia.allFinite()) return false;
-  const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(inertia.inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  return moments[0] > 0 && moments[0] + moments[1] >= moments[2] * (1 - kInequalitySlack);
+  const Vec3 moments = principalMoments(inertia.inertia);
+  return moments[0] > 0 && moments[0] + moments[1] >= moments[2] * (1 - slack);
 }
 
 /// In the frame of `part`'s geometry.
@@ -112,12 +119,16 @@ BodyInertia inertiaOf(const Body& body, const BodyMeshes& meshes, Diagnostics& d
   result.inertia = density * R_BG * unit.inertia * R_BG.transpose();
   if (body.p_BCm) result.p_BCm = *body.p_BCm;
   if (body.inertia_B) result.inertia = *body.inertia_B;
-  if (body.inertia_B && !physical(result)) {
-    diagnostics.error(321, body.physics->where, "body '" + body.name + "': no real body has this inertia",
+  if (body.inertia_B && !physical(result, kGivenSlack)) {
+    const Vec3 moments = principalMoments(result.inertia);
+    diagnostics.error(321, body.physics->where,
+                      "body '" + body.name + "': no real body has the principal moments of its 'inertia', " +
+                          xml::numberText(moments[0]) + ", " + xml::numberText(moments[1]) + " and " +
+                          xml::numberText(moments[2]) + " kg m^2",
                       "its principal moments are positive, and none is larger than the sum of the two others");
     return {};
   }
-  if (!physical(result)) {
+  if (!body.inertia_B && !physical(result, kInequalitySlack)) {
     diagnostics.error(321, body.physics->where,
                       "body '" + body.name + "': its physics geometry gives a mass of " + std::to_string(result.mass) +
                           " kg and a volume of " + std::to_string(unit.volume) + " m^3, no physically valid inertia",

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "framework/scene/scene_parts.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {
@@ -205,9 +206,25 @@ class PathWalk {
            "possible after " + here() + name + "/: " + listed(inside));
       return;
     }
+    keepInertia(name);
     const std::string rival = rivalOf(name);
     if (!rival.empty()) element_.removeAttribute(rival);
     element_.setAttribute(name, change_.value, origin_);
+  }
+
+  /// An inertia that the scene gives belongs to its mass: another mass scales it, and a density means that of the shapes.
+  void keepInertia(const std::string& name) {
+    if (!element_.hasAttribute("inertia") || (name != "mass" && name != "density")) return;
+    double wanted = 0;
+    const double given = element_.number("mass", 0);
+    if (name == "density") {
+      element_.removeAttribute("inertia");
+      element_.removeAttribute("center");
+    } else if (given > 0 && xml::readNumber(change_.value, wanted) == xml::NumberKind::kFinite && wanted > 0) {
+      std::string scaled;
+      for (const double moment : element_.numbers("inertia")) scaled += xml::numberText(moment * wanted / given) + " ";
+      element_.setAttribute("inertia", scaled);
+    }
   }
 
   Element element_;
@@ -222,8 +239,9 @@ class PathWalk {
 }  // namespace
 
 std::string rivalOf(const std::string& attribute) {
-  static const std::pair<const char*, const char*> kRivals[] = {
-      {"mass", "density"}, {"euler_deg", "quat"}, {"preset", "static"}};
+  static const std::pair<const char*, const char*> kRivals[] = {{"mass", "density"},    {"euler_deg", "quat"},
+                                                                {"preset", "static"},   {"lower", "lower_deg"},
+                                                                {"upper", "upper_deg"}, {"rest", "rest_deg"}};
   for (const auto& [a, b] : kRivals) {
     if (attribute == a) return b;
     if (attribute == b) return a;

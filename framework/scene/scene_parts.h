@@ -30,6 +30,10 @@ inline std::optional<double> optionalNumber(const xml::Element& element, const s
 /// `path` relative to `directory`, made absolute and normalised; "" stays "".
 std::string resolvePath(const std::string& path, const std::string& directory);
 
+/// Elements that `<include>` or `<defaults>` of a scene may bring in all copies together.
+inline constexpr std::size_t kMostCopied = 200'000;
+/// The element and all in it.
+std::size_t elementsIn(const xml::Element& element);
 /// Copies what the files of `<include>` elements hold in front of these elements (E273 to E275). Files are read only on
 /// behalf of a document that was a file itself: `from_file`. Each file's `<defaults>` are for what stands in it.
 void expandIncludes(xml::Document& document, const xml::ElementRule& scene, bool from_file, Diagnostics& diagnostics);

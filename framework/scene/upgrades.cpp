@@ -28,7 +28,7 @@ void apply(const Change& change, const Element& at, const std::string& path, boo
     if (slash != std::string::npos) {
       apply(change, child, path.substr(slash + 1), changed);
     } else if (child.hasAttribute(change.attribute)) {
-      if (*change.now != '\0')
+      if (*change.now != '\0' && !child.hasAttribute(change.now))
         child.setAttribute(change.now, child.attribute(change.attribute), child.where(change.attribute));
       child.removeAttribute(change.attribute);
       changed = true;
@@ -51,7 +51,10 @@ bool upgrade(xml::Element root) {
   if (minor < 0 || minor >= kFormatMinor) return false;
   bool changed = false;
   for (const Change& change : kChanges)
-    if (change.minor > minor) apply(change, root, change.path, changed);
+    if (change.minor > minor) {
+      apply(change, root, change.path, changed);
+      for (const Element& defaults : root.children("defaults")) apply(change, defaults, change.path, changed);
+    }
   root.setAttribute("version", std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor),
                     root.where("version"));
   return changed;

@@ -49,17 +49,17 @@ void warnOfMesh(const Body& body, const Geometry& geometry, const TriMesh* mesh,
                              named->scale.y() / 1000, named->scale.z() / 1000, size / 1000));
 }
 
-/// A primitive of a body that moves; what stands still may be a floor or a hall.
-void warnOfPrimitive(const Body& body, const Geometry& geometry, Diagnostics& diagnostics) {
-  if (body.fixed || std::holds_alternative<MeshRef>(geometry.shape)) return;
+/// A body that moves and has no mesh of its own; one that stands still may be a floor or a hall.
+void warnOfSize(const Body& body, const BodyMeshes& meshes, Diagnostics& diagnostics) {
+  if (body.fixed || !body.physics || std::holds_alternative<MeshRef>(body.physics->shape)) return;
   double size = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 n = Vec3::Unit(axis);
-    size = std::max(size, supportOf(geometry.shape, nullptr, n) + supportOf(geometry.shape, nullptr, -n));
+    size = std::max(size, supportOf(body, meshes, n) + supportOf(body, meshes, -n));
   }
   if (size < kHuge) return;
   diagnostics.warning(
-      kHugeMesh, geometry.where,
+      kHugeMesh, body.physics->where,
       quote(body.name) + format(" is %.4g m wide: its size may be in millimetres, which are taken for metres", size),
       format("lengths are in metres: %.4g m for %.4g mm", size / 1000, size));
 }
@@ -68,7 +68,7 @@ void warnOfMeshes(const World& world, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < world.scene.bodies.size(); ++i) {
     const Body& body = world.scene.bodies[i];
     const BodyMeshes& meshes = world.meshes[i];
-    if (const auto& solid = body.physics ? body.physics : body.haptic) warnOfPrimitive(body, *solid, diagnostics);
+    warnOfSize(body, meshes, diagnostics);
     if (body.haptic) warnOfMesh(body, *body.haptic, meshes.haptic.get(), diagnostics);
     if (body.physics) warnOfMesh(body, *body.physics, meshes.physics.get(), diagnostics);
     if (body.visual) warnOfMesh(body, *body.visual, meshes.visual.get(), diagnostics);

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/common/scratch_folder.h"
 #include "apps/common/terminal/waiting.h"
 #include "apps/presa/check/start_warnings.h"
 #include "apps/presa/commands/commands.h"
@@ -9,14 +10,22 @@
 namespace presa {
 namespace {
 
-/// What `presa check` says of the new scene.
-bool loads(const std::string& scene) {
+void replaceAll(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+}
+
+/// Whether the scene loads, from a folder that nobody sees; prints what `presa check` says of it, as of the real one.
+bool loads(const robot::Wanted& wanted, const robot::Imported& imported) {
+  const ScratchFolder scratch;
   Diagnostics diagnostics;
   RunOptions options;
   options.bound_stiffness = true;
-  const Loaded loaded = loadWorld({scene, "", {}}, options, diagnostics);
+  const Loaded loaded = loadWorld({robot::write(scratch.path().string(), imported), "", {}}, options, diagnostics);
   if (!diagnostics.hasErrors()) check::warnOfStart(loaded, diagnostics);
-  std::fputs(diagnostics.text().c_str(), stderr);
+  std::string text = diagnostics.text();
+  replaceAll(text, scratch.path().string(), wanted.folder);
+  std::fputs(text.c_str(), stderr);
   return !diagnostics.hasErrors();
 }
 
@@ -30,12 +39,14 @@ int importFile(const robot::Wanted& wanted) {
   }
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!imported) return kExitBadInput;
-  const std::string scene = robot::write(wanted, *imported);
-  const std::string left_out = robot::leftOutText(*imported);
+  if (!loads(wanted, *imported)) {
+    std::fputs("nothing is written: no scene can be made of this model\n", stderr);
+    return kExitBadInput;
+  }
+  const std::string scene = robot::write(wanted.folder, *imported), left_out = robot::leftOutText(*imported);
   std::printf("%s\n", scene.c_str());
   if (!left_out.empty()) std::printf("left out or changed:\n%s", left_out.c_str());
-  std::fflush(stdout);
-  return loads(scene) ? kExitOk : kExitBadInput;
+  return kExitOk;
 }
 
 }  // namespace
@@ -49,9 +60,10 @@ void addImport(Command app, int& status) {
   command.flag("--free-base", wanted->free_base, "the root link of a URDF moves freely; else it stands still");
   command.flag("--overwrite", wanted->overwrite, "replace files of before");
   command.footer(
-      "Links become bodies with the file's masses and inertias, its joints become joints, with limits, springs, "
-      "damping "
-      "and\nfriction. Fingers feel what collides. What the scene does not have is listed.\n"
+      "Links become bodies with the masses and inertias of the file, and its joints become joints with limits, springs,
+      "
+      "damping and friction. Fingers feel what collides. What the scene does not have is listed.
+      "
       "Exit status: 0 done, 2 bad input.\n"
       "Example:  presa import gripper.urdf --out gripper && presa run gripper/gripper.xml --view window");
   command.action([wanted, &status] { status = importFile(*wanted); });

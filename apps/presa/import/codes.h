@@ -3,7 +3,7 @@
 namespace presa::robot {
 
 enum RobotCode {
-  kTarget = 129,       ///< the output exists, or its folder is a file
+  kTarget = 129,       ///< the output folder is not empty, or a file; or the scene would replace its own source
   kNeither = 130,      ///< neither URDF nor MJCF
   kUnreadable = 131,   ///< MuJoCo cannot read the model
   kNoFile = 132,       ///< a file that the model names is not there

@@ -8,22 +8,28 @@
 #include "apps/common/scene_name.h"
 #include "apps/common/scratch_folder.h"
 #include "apps/presa/import/codes.h"
+#include "framework/core/diagnostics/printable.h"
 
 namespace presa::robot {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// MuJoCo's words about the scratch file, as an error at the place of the user's file.
+/// MuJoCo's words about the scratch file, as an error at the place of the user's file. Its last "line N" is the place:
+/// before it, names of the file may stand.
 void report(const Source& source, std::string words, Diagnostics& diagnostics) {
   std::ranges::replace(words, '\n', ' ');
-  static const std::regex kLine(",? *\\(?line[ =]+(\\d+)(, column [ =-]*\\d+)?\\)?");
-  std::smatch line;
-  const bool placed = std::regex_search(words, line, kLine);
-  const SourceLocation where = placed ? whereOf(source, std::stoi(line[1])) : source.document->root().where();
-  words = std::regex_replace(words, kLine, "");
+  static const std::regex kLine(",? *\\(?line[ =]+(\\d{1,8})(, column [ =-]*\\d+)?\\)?");
+  SourceLocation where = source.document->root().where();
+  const auto all = std::sregex_iterator(words.begin(), words.end(), kLine);
+  if (all != std::sregex_iterator()) {
+    std::smatch last;
+    for (auto it = all; it != std::sregex_iterator(); ++it) last = *it;
+    where = whereOf(source, std::stoi(last[1]));
+    words.erase(static_cast<std::size_t>(last.position()), static_cast<std::size_t>(last.length()));
+  }
   words.erase(words.find_last_not_of(' ') + 1);
-  diagnostics.error(kUnreadable, where, "MuJoCo cannot read the model: " + words,
+  diagnostics.error(kUnreadable, where, "MuJoCo cannot read the model: " + printable(words),
                     "it knows URDF, and MJCF of version 2.2");
 }
 
@@ -51,16 +57,25 @@ std::optional<Imported> importRobot(const Wanted& wanted, Diagnostics& diagnosti
     return std::nullopt;
   }
   Imported imported{sceneName(source->name), {}, source->left_out.all()};
-  imported.files = sceneOf(
-      robot,
-      {imported.name, fs::path(wanted.file).filename().string(), source->root, source->carried, wanted.stiffness},
-      diagnostics);
+  SceneSettings settings;
+  settings.name = imported.name;
+  settings.source = fs::path(wanted.file).filename().string();
+  settings.root = source->root;
+  settings.carried = source->carried;
+  settings.where = [&](const std::string& link) { return whereIsLink(*source, link); };
+  settings.stiffness = wanted.stiffness;
+  imported.files = sceneOf(robot, settings, diagnostics);
+  std::error_code error;
+  const fs::path scene = fs::path(wanted.folder) / (imported.name + ".xml");
+  if (fs::exists(scene, error) && fs::equivalent(scene, wanted.file, error))
+    diagnostics.error(kTarget, {scene.string(), 0, 0}, "is what is read, and the scene would replace it",
+                      "name another folder");
   if (diagnostics.hasErrors()) return std::nullopt;
   return imported;
 }
 
-std::string write(const Wanted& wanted, const Imported& imported) {
-  const fs::path folder = wanted.folder;
+std::string write(const std::string& to, const Imported& imported) {
+  const fs::path folder = to;
   for (const auto& [name, text] : imported.files.others) {
     fs::create_directories((folder / name).parent_path());
     writeFileAtomically((folder / name).string(), text);
@@ -74,10 +89,11 @@ std::string write(const Wanted& wanted, const Imported& imported) {
 std::string leftOutText(const Imported& imported) {
   std::string text;
   for (const LeftOut& left : imported.left_out) {
-    text += "  " + left.what + (left.count > 1 ? ", " + std::to_string(left.count) + " times, the first" : "") +
-            " at " + left.where.file + ":" + std::to_string(left.where.line) + "\n";
+    text += "  " + printable(left.what) +
+            (left.count > 1 ? ", " + std::to_string(left.count) + " times, the first" : "") + " at " +
+            printable(left.where.file) + ":" + std::to_string(left.where.line) + "\n";
   }
-  for (const std::string& note : imported.files.notes) text += "  " + note + "\n";
+  for (const std::string& note : imported.files.notes) text += "  " + printable(note) + "\n";
   return text;
 }
 

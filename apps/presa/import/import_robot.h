@@ -20,13 +20,13 @@ struct Imported {
   std::vector<LeftOut> left_out;
 };
 
-/// E129 if the scene exists already, or its folder is a file. Thread: main.
+/// E129 if the folder is not empty, or is a file. Thread: main.
 void checkTarget(const Wanted& wanted, Diagnostics& diagnostics);
 /// Reads the robot; nothing is written but a scratch folder, which is removed. None: errors in `diagnostics`; those of
 /// prepare and sceneOf, and E131: MuJoCo cannot read the model. Thread: main.
 std::optional<Imported> importRobot(const Wanted& wanted, Diagnostics& diagnostics);
-/// Writes all files, the scene last, and returns its path. Throws std::system_error.
-std::string write(const Wanted& wanted, const Imported& imported);
+/// Writes all files into the folder, the scene last, and returns its path. Throws std::system_error.
+std::string write(const std::string& folder, const Imported& imported);
 /// What the scene has not, for people: a line each.
 std::string leftOutText(const Imported& imported);
 

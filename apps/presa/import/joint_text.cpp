@@ -47,7 +47,8 @@ class Axis {
       : f_(f), turns_(f.kind == Kind::kHinge), whose_(std::move(whose)), notes_(notes) {}
 
   std::string text() const {
-    std::string text = "    <axis" + vectorText("dir", f_.dir_L) + limits();
+    std::string text = "    <axis";
+    if (f_.kind != Kind::kBall) text += vectorText("dir", f_.dir_L) + limits();
     if (f_.stiffness != 0) {
       text += numberText("stiffness", f_.stiffness);
       if (f_.rest != 0) text += turns_ ? numberText("rest_deg", degrees(f_.rest)) : numberText("rest", f_.rest);
@@ -92,15 +93,23 @@ std::string ballText(const std::vector<Freedom>& freedoms, const std::string& wh
     springs = springs || f.stiffness != 0;
     all.damping = std::max(all.damping, f.damping);
     all.friction = std::max(all.friction, f.friction);
+    all.armature = std::max(all.armature, f.armature);
   }
   if (stops) notes.push_back(whose + ": the limits of a ball joint are left out");
   if (springs) notes.push_back(whose + ": the springs of a ball joint are left out");
-  return all.damping == 0 && all.friction == 0 ? "" : Axis(all, whose, notes).text();
+  return all.damping == 0 && all.friction == 0 && all.armature == 0 ? "" : Axis(all, whose, notes).text();
 }
 
-/// Moves of a link that hangs on the world and could go in two directions or more.
+/// A link that can go anywhere in a plane, or in space, and turn there: it hangs on the world for bookkeeping alone.
 bool isNearlyFree(const std::vector<Freedom>& freedoms) {
-  return std::ranges::count(freedoms, Kind::kSlide, &Freedom::kind) >= 2;
+  const auto slides = std::ranges::count(freedoms, Kind::kSlide, &Freedom::kind);
+  const auto hinges = std::ranges::count(freedoms, Kind::kHinge, &Freedom::kind);
+  const auto balls = std::ranges::count(freedoms, Kind::kBall, &Freedom::kind);
+  return (slides == 2 && hinges == 1) || (slides == 3 && (hinges == 3 || balls == 1));
+}
+
+bool hasMore(const Freedom& f) {
+  return f.limited || f.stiffness != 0 || f.damping != 0 || f.friction != 0 || f.armature != 0;
 }
 
 }  // namespace
@@ -110,12 +119,16 @@ std::optional<JointText> jointOf(const Link& link, const std::string& name, cons
   JointText joint;
   const std::vector<Freedom>& f = link.freedoms;
   joint.free = !f.empty() && f.front().kind == Kind::kFree;
-  if (joint.free) return joint;
+  if (joint.free) {
+    if (hasMore(f.front())) joint.notes.push_back("'" + body + "' moves freely: damping and armature are left out");
+    return joint;
+  }
   const std::string type = typeOf(f), whose = "joint '" + name + "'";
   if (type.empty() && to.empty() && isNearlyFree(f)) {
     joint.free = true;
     joint.notes.push_back("'" + body + "' moves freely; in the file it has " + std::to_string(f.size()) +
-                          " joints with the world, among them more than one slide");
+                          " joints with the world" +
+                          (std::ranges::any_of(f, hasMore) ? ", whose limits, springs and damping are left out" : ""));
     return joint;
   }
   if (type.empty()) return std::nullopt;

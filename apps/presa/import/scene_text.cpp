@@ -10,7 +10,9 @@
 #include "apps/presa/import/solids.h"
 #include "framework/geometry/convex.h"
 #include "framework/geometry/obj_text.h"
+#include "framework/scene/scene_parts.h"
 #include "framework/scene/xml/escaped.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa::robot {
 namespace {
@@ -20,6 +22,7 @@ using terminal::format;
 constexpr std::size_t kMaxShapes = 256;        // of one physics geometry
 constexpr std::size_t kMaxHullVertices = 256;  // of the convex hull of a mesh
 constexpr int kDigits = 9;
+constexpr double kMostCarried = 1000;  // max_force of <gravity_compensation> [N]
 
 /// Names that scenes allow, different for each call.
 class Names {
@@ -27,12 +30,13 @@ class Names {
   std::string unique(const std::string& wanted, const std::string& otherwise) {
     const std::string name = sceneName(wanted.empty() ? otherwise : wanted);
     std::string free = name;
-    for (int i = 2; !taken_.insert(free).second; ++i) free = name + "_" + std::to_string(i);
+    for (int& i = numbers_[name]; !taken_.insert(free).second;) free = name + "_" + std::to_string(++i + 1);
     return free;
   }
 
  private:
   std::set<std::string> taken_;
+  std::map<std::string, int> numbers_;  ///< last one behind each name
 };
 
 class Writer {
@@ -41,11 +45,19 @@ class Writer {
       : robot_(robot), settings_(settings), diagnostics_(diagnostics) {}
 
   SceneFiles files() {
+    if (robot_.masked)
+      files_.notes.push_back(
+          "contype and conaffinity keep some solids apart in the file; in the scene all of them meet");
     std::string bodies = staticBodies();
     for (std::size_t i = 1; i < robot_.links.size(); ++i) {
       names_of_.resize(i + 1);
-      names_of_[i] = names_.unique(robot_.links[i].name, "link_" + std::to_string(i));
-      bodies += linkBody(robot_.links[i], names_of_[i]);
+      const Link& link = robot_.links[i];
+      if (link.parent == 0 && link.freedoms.empty()) {  // moved by its user in MuJoCo
+        if (!link.parts.empty()) bodies += staticBody(link.parts, link.name, link.X_WL);
+        continue;
+      }
+      names_of_[i] = names_.unique(link.name, "link_" + std::to_string(i));
+      bodies += linkBody(link, names_of_[i]);
       addJoint(i);
     }
     files_.scene = head() + materials_text_ + "  </materials>\n" + bodies + joints_ +
@@ -60,9 +72,10 @@ class Writer {
 
  private:
   std::string head() const {
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"1.0\" name=\"" + settings_.name + "\" rig=\"" +
-           settings_.name + "_rig.xml\"\n       description=\"Imported from " + xml::escaped(settings_.source) +
-           "\">\n  <world" + vectorText("gravity", robot_.gravity) + "/>\n  <materials>\n";
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene version=\"" + std::to_string(kFormatMajor) + "." +
+           std::to_string(kFormatMinor) + "\" name=\"" + settings_.name + "\" rig=\"" + settings_.name +
+           "_rig.xml\"\n       description=\"Imported from " + xml::escaped(settings_.source) + "\">\n  <world" +
+           vectorText("gravity", robot_.gravity) + "/>\n  <materials>\n";
   }
 
   /// The name of the material with this part's friction and colour.
@@ -106,9 +119,7 @@ class Writer {
         files_.notes.push_back("'" + body + "': fingers feel the convex hull of mesh '" + robot_.names[part.mesh] +
                                "', which is not closed");
       }
-      const auto first = static_cast<std::int32_t>(all.vertices.size());
-      all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-      for (const auto& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      append(all, mesh);
     }
     return "    <haptic>" + file(body + "_felt", objText(all, kDigits)) + "</haptic>\n";
   }
@@ -159,9 +170,21 @@ class Writer {
     const auto [solid, drawn] = sorted(parts);
     std::string body = "  <body name=\"" + name + "\" fixed=\"true\" material=\"" +
                        materialOf(solid.empty() ? drawn.front() : solid.front()) + "\"" + poseText(X_WB) + ">\n";
-    if (!drawn.empty()) body += visual(drawn, name);
+    noteFrictions(solid, name);
+    noteEnds(parts, name);
+    if (!drawn.empty() || hasColours(solid)) body += visual(drawn.empty() ? solid : drawn, name);
     if (!solid.empty()) body += haptic(solid, name) + physics(solid, "", name);
     return body + "  </body>\n";
+  }
+
+  static bool hasColours(const std::vector<Part>& parts) {
+    return std::ranges::any_of(parts, [&](const Part& part) { return part.color != parts.front().color; });
+  }
+
+  void noteEnds(const std::vector<Part>& parts, const std::string& body) {
+    if (std::ranges::any_of(parts,
+                            [](const Part& p) { return p.solid == Solid::kPlane && p.size.head<2>().minCoeff() <= 0; }))
+      files_.notes.push_back("'" + body + "': a plane without end is 10 m wide");
   }
 
   struct Sorted {
@@ -181,8 +204,7 @@ class Writer {
     const Part& first = felt.empty() && !drawn.empty() ? drawn.front() : solid.front();
     std::string text =
         "  <body name=\"" + name + "\" material=\"" + materialOf(first) + "\"" + poseText(link.X_WL) + ">\n";
-    const bool colours = std::ranges::any_of(felt, [&](const Part& p) { return p.color != felt.front().color; });
-    if (!drawn.empty() || colours) text += visual(drawn.empty() ? felt : drawn, name);
+    if (!drawn.empty() || hasColours(felt)) text += visual(drawn.empty() ? felt : drawn, name);
     if (!felt.empty()) text += haptic(felt, name);
     return text + physics(solid, inertiaText(link), name) + carried(link) + "  </body>\n";
   }
@@ -193,14 +215,17 @@ class Writer {
     if (found == settings_.carried.end() || found->second <= 0) return {};
     if (found->second > 1) files_.notes.push_back("'" + link.name + "': gravcomp counts up to 1");
     const double weight = link.mass * robot_.gravity.norm();
+    if (weight > kMostCarried) files_.notes.push_back("'" + link.name + "': gravcomp carries up to 1000 N");
     return "    <gravity_compensation" + numberText("share", std::min(1.0, found->second)) +
-           numberText("max_force", std::clamp(2 * weight, 1.0, 1000.0)) + "/>\n";
+           numberText("max_force", std::clamp(2 * weight, 1.0, kMostCarried)) + "/>\n";
   }
 
   static std::string inertiaText(const Link& link) {
     const Mat3& m = link.inertia_L;
-    return numberText("mass", link.mass) + vectorText("center", link.com_L) +
-           format(" inertia=\"%.9g %.9g %.9g %.9g %.9g %.9g\"", m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2));
+    std::string inertia;
+    for (const double moment : {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)})
+      inertia += (inertia.empty() ? "" : " ") + xml::numberText(moment);
+    return numberText("mass", link.mass) + vectorText("center", link.com_L) + " inertia=\"" + inertia + "\"";
   }
 
   /// A link without solids that collide: the ball that has its largest moment of inertia, about its centre of mass.
@@ -224,12 +249,12 @@ class Writer {
 
   void addJoint(std::size_t i) {
     const Link& link = robot_.links[i];
-    const std::string to = link.parent == 0 ? "" : names_of_[link.parent];
+    const std::string to = names_of_[link.parent];  // empty: it hangs on what stands still
     const std::string wanted = link.freedoms.empty() ? "" : link.freedoms.front().name;
     const std::string name = joint_names_.unique(wanted, names_of_[i] + "_joint");
     const auto joint = jointOf(link, name, names_of_[i], to);
     if (!joint) {
-      diagnostics_.error(kNoSuchJoint, {settings_.source, 0, 0},
+      diagnostics_.error(kNoSuchJoint, settings_.where(link.name),
                          "body '" + link.name + "' has " + std::to_string(link.freedoms.size()) +
                              " joints with its parent, and no joint of Presa moves like them",
                          "fixed, hinge, slider, ball, universal (two hinges square to each other, through one point), "

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ struct SceneSettings {
   std::string source;                     ///< file that the robot was read from, for the description
   std::string root;                       ///< link that is fixed to the world; empty: none
   std::map<std::string, double> carried;  ///< share of a link's weight that something else carries, by its name
-  double stiffness = 1000;                ///< of all surfaces under a finger [N/m]
+  std::function<SourceLocation(const std::string&)> where;  ///< of a link in the source
+  double stiffness = 1000;                                  ///< of all surfaces under a finger [N/m]
 };
 
 /// A scene, its rig and its meshes, and what of the robot is not in them.

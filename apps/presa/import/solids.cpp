@@ -4,6 +4,7 @@
 
 #include "apps/common/terminal/text.h"
 #include "framework/geometry/srgb.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa::robot {
 namespace {
@@ -45,7 +46,9 @@ TriMesh ownSurface(const Part& part, const Robot& robot) {
 
 }  // namespace
 
-std::string numberText(const std::string& name, double value) { return format(" %s=\"%.9g\"", name.c_str(), value); }
+std::string numberText(const std::string& name, double value) {
+  return " " + name + "=\"" + xml::numberText(value) + "\"";
+}
 
 std::string vectorText(const std::string& name, const Vec3& v) {
   const Vec3 exact = v.unaryExpr([](double x) { return std::abs(x) < kZero ? 0.0 : x; });
@@ -90,16 +93,10 @@ TriMesh surfaceOf(const Part& part, const Robot& robot) {
   return mesh;
 }
 
-TriMesh surfaceOf(const std::vector<Part>& parts, const Robot& robot) {
-  TriMesh all;
-  for (const Part& part : parts) {
-    const TriMesh mesh = surfaceOf(part, robot);
-    const auto first = static_cast<std::int32_t>(all.vertices.size());
-    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const TriMesh::Triangle& t : mesh.triangles)
-      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  return all;
+void append(TriMesh& to, const TriMesh& mesh) {
+  const auto first = static_cast<std::int32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  for (const TriMesh::Triangle& t : mesh.triangles) to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 std::string coloredObj(const std::vector<Part>& parts, const Robot& robot) {

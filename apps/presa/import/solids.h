@@ -9,7 +9,7 @@ namespace presa::robot {
 
 /// " pos=… quat=…" of an element; empty for the identity.
 std::string poseText(const Pose& pose);
-/// " pos=… dir=…" and such: a name and three numbers.
+/// An attribute with three numbers, to nine digits, or with one, exactly.
 std::string vectorText(const std::string& name, const Vec3& v);
 std::string numberText(const std::string& name, double value);
 
@@ -20,9 +20,9 @@ Pose placeOf(const Part& part);
 
 /// The surface of a solid in the frame of its link, closed unless a mesh of the file is open.
 TriMesh surfaceOf(const Part& part, const Robot& robot);
-/// The surfaces of several solids as one mesh.
-TriMesh surfaceOf(const std::vector<Part>& parts, const Robot& robot);
-/// The same as an OBJ file in which each vertex has the colour of its solid, as a display shows it.
+/// Adds a mesh to another one; they are not joined.
+void append(TriMesh& to, const TriMesh& mesh);
+/// The surfaces of several solids as an OBJ file in which each vertex has the colour of its solid, as a display shows it.
 std::string coloredObj(const std::vector<Part>& parts, const Robot& robot);
 
 }  // namespace presa::robot

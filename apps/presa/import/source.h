@@ -42,13 +42,15 @@ struct Source {
   LeftOuts left_out;
 };
 
-/// None: errors in `diagnostics`. E101 to E107 as for every XML file, E130 neither URDF nor MJCF, E132 a mesh or include
-/// that is not there, E692 a file outside of the allowed folders, E30x a mesh that cannot be read. Throws
-/// std::system_error if the scratch folder cannot be written. Thread: main.
+/// None: errors in `diagnostics`. E101 to E107 as for every XML file, E130 neither URDF nor MJCF, E131 what MuJoCo would
+/// not read, E132 a mesh or include that is not there, E692 a file outside of the allowed folders, E30x a mesh that cannot
+/// be read. Throws std::system_error if the scratch folder cannot be written. Thread: main.
 std::optional<Source> prepare(const std::string& file, const std::filesystem::path& scratch,
                               const SourceOptions& options, Diagnostics& diagnostics);
 
 /// Where the element on this line of Source::file was read.
 SourceLocation whereOf(const Source& source, int line);
+/// Where a link, or a body, of that name was read.
+SourceLocation whereIsLink(const Source& source, const std::string& name);
 
 }  // namespace presa::robot

@@ -216,12 +216,12 @@ class ExpressionParser {
 
   std::size_t phase() {
     const auto found = std::find(phases_->begin(), phases_->end(), token_);
-    if (found == phases_->end()) throw Unknown{"there is no phase " + quote(token_) + didYouMean(token_, *phases_), listed("phases: ", *phases_)};
+    if (found == phases_->end())
+      throw Unknown{"there is no phase " + quote(token_) + didYouMean(token_, *phases_), listed("phases: ", *phases_)};
     advance();
     return static_cast<std::size_t>(found - phases_->begin());
   }
 
-  // compiles an expression over samples inside an expression over measures
   static std::string listed(std::string what, const std::vector<std::string>& names) {
     constexpr std::size_t kMost = 40;
     for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) what += (i == 0 ? "" : ", ") + names[i];
@@ -231,11 +231,12 @@ class ExpressionParser {
   /// What the reader may write in the place of an unknown name.
   std::string namesHelp() const {
     const std::string minus = token_ == "-" ? "a name with '-' cannot stand in an expression: '-' subtracts; " : "";
-    return minus + listed(samples_ != nullptr && names_ == samples_ ? "inside of an aggregate only samples count: "
-                                                                   : "names: ",
-                          names_->all());
+    return minus +
+           listed(samples_ != nullptr && names_ == samples_ ? "inside of an aggregate only samples count: " : "names: ",
+                  names_->all());
   }
 
+  // compiles an expression over samples inside an expression over measures
   Expression inner() {
     Expression outer = std::exchange(out_, {});
     const std::size_t depth = std::exchange(depth_, 0);

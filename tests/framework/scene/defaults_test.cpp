@@ -78,6 +78,36 @@ TEST_F(Defaults, OverridesComeAfterThem) {
   EXPECT_THAT(scene.resolved_xml, testing::Not(HasSubstr("<defaults")));
 }
 
+TEST_F(Defaults, AMassOfItsOwnGoesWithoutTheInertiaOfAnother) {
+  const std::string heavy =
+      R"(<defaults><body class="h" material="wood"><physics mass="2" inertia="1 1 1 0 0 0" center="0 0 1">
+<box size="1 1 1"/></physics></body></defaults>)";
+  const Scene scene = load(
+      heavy +
+          R"(<body name="a" class="h"/><body name="b" class="h"><physics density="9"><box size="1 1 1"/></physics></body>)",
+      {{"body/a/physics/mass", "3"}});
+  ASSERT_FALSE(found_.hasErrors()) << found_.text();
+  EXPECT_FALSE(scene.bodies[1].inertia_B);
+  EXPECT_FALSE(scene.bodies[1].p_BCm);
+  // another mass scales the inertia that was given with the first
+  ASSERT_TRUE(scene.bodies[0].inertia_B);
+  EXPECT_NEAR((*scene.bodies[0].inertia_B)(0, 0), 1.5, 1e-15);
+  const Scene dense = load(heavy + R"(<body name="a" class="h"/>)", {{"body/a/physics/density", "3"}});
+  ASSERT_FALSE(found_.hasErrors()) << found_.text();
+  EXPECT_FALSE(dense.bodies[0].inertia_B);
+}
+
+TEST_F(Defaults, ABombIsRefused) {
+  std::string boxes, bodies;
+  for (int i = 0; i < 1000; ++i) {
+    boxes += "<box size=\"1 1 1\"/>";
+    bodies += "<body name=\"b" + std::to_string(i) + "\" class=\"b\"/>";
+  }
+  load("<defaults><body class=\"b\" material=\"wood\"><physics mass=\"1\">" + boxes + "</physics></body></defaults>" +
+       bodies);
+  EXPECT_THAT(found_.text(), HasSubstr("error[E278]: <defaults> brings more than 200000 elements"));
+}
+
 TEST_F(Defaults, AMistakeIsToldOnceAtItsPlace) {
   const std::string users = R"(
 <body name="a" class="x"/><body name="b" class="x"/>)";

@@ -10,7 +10,7 @@ namespace {
 constexpr double kMass = 0.2, kGravity = 9.81;  // of the field's cube
 
 TEST(GravityCompensation, CarriesItsShareOfTheWeight) {
-  test::BodyEffectField all("<gravity_compensation/>"), part("<gravity_compensation share=\"0.25\"/>");
+  test::BodyEffectField all("<gravity_compensation max_force=\"10\"/>"), part("<gravity_compensation share=\"0.25\" max_force=\"10\"/>");
   EXPECT_TRUE(all.at({}).f_W.isApprox(Vec3(0, 0, kMass * kGravity)));
   EXPECT_TRUE(
       part.at({.v_WCm = Vec3(3, 0, 0), .w_WB = Vec3(0, 9, 0)}).f_W.isApprox(Vec3(0, 0, 0.25 * kMass * kGravity)));
@@ -22,7 +22,7 @@ TEST(GravityCompensation, CarriesItsShareOfTheWeight) {
 
 TEST(GravityCompensation, NeitherAllocatesNorLocks) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
-  test::BodyEffectField field("<gravity_compensation/>");
+  test::BodyEffectField field("<gravity_compensation max_force=\"10\"/>");
   const RealTimeGuard guard;
   for (int i = 0; i < 100; ++i) field.at({});
   EXPECT_EQ(guard.violations(), 0) << guard.first();
