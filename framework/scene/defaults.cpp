@@ -43,8 +43,8 @@ void fillAttributes(Element to, const Element& from) {
   }
 }
 
-/// Attributes and children of `from` that `to` lacks; a child that is there takes attributes alone. Returns how many
-/// elements came.
+/// Attributes and children of `from` that `to` lacks; a child that is there and holds something takes attributes alone,
+/// since what it holds may be an alternative. Returns how many elements came.
 std::size_t fill(Element to, const Element& from) {
   std::size_t came = 0;
   fillAttributes(to, from);
@@ -56,7 +56,12 @@ std::size_t fill(Element to, const Element& from) {
     if (!own.contains(child.name())) {
       came += elementsIn(to.addCopy(child));
     } else if (first) {
-      for (const Element& existing : to.children(child.name())) fillAttributes(existing, child);
+      for (const Element& existing : to.children(child.name())) {
+        if (existing.children().empty())
+          came += fill(existing, child);
+        else
+          fillAttributes(existing, child);
+      }
     }
   }
   return came;

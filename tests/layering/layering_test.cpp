@@ -60,7 +60,7 @@ TEST(Layering, FilesFromOutsideComeThroughOneDoor) { EXPECT_THAT(offenders(opens
 TEST(Layering, EveryRoomSaysWhatItIsFor) {
   std::vector<std::string> silent;
   for (const std::string& room : rooms()) {
-    if (room == "docs") continue;  // pages, no code
+    if (room == "docs" || room.starts_with("docs/")) continue;  // pages, no code
     if (!std::filesystem::exists(std::filesystem::path(PRESA_SOURCE_DIR) / room / "README.md")) silent.push_back(room);
   }
   EXPECT_THAT(silent, IsEmpty());

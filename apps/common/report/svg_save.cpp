@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/common/number_text.h"
+#include "apps/common/replace_all.h"
 #include "apps/common/report/base64.h"
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
@@ -17,11 +18,6 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
-}
-
-void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
 }
 
 /// The colours of the page's first block, which is the light one: "--ink" -> "#1b1f24".

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/common/replace_all.h"
 #include "apps/common/scratch_folder.h"
 #include "apps/common/terminal/waiting.h"
 #include "apps/presa/check/start_warnings.h"
@@ -9,11 +10,6 @@
 
 namespace presa {
 namespace {
-
-void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
 
 /// Whether the scene loads, from a folder that nobody sees; prints what `presa check` says of it, as of the real one.
 bool loads(const robot::Wanted& wanted, const robot::Imported& imported) {
@@ -60,10 +56,9 @@ void addImport(Command app, int& status) {
   command.flag("--free-base", wanted->free_base, "the root link of a URDF moves freely; else it stands still");
   command.flag("--overwrite", wanted->overwrite, "replace files of before");
   command.footer(
-      "Links become bodies with the masses and inertias of the file, and its joints become joints with limits, springs,
-      "
-      "damping and friction. Fingers feel what collides. What the scene does not have is listed.
-      "
+      "Links become bodies with the masses and inertias of the file, and its joints become joints with limits, "
+      "springs,\n"
+      "damping and friction. Fingers feel what collides. What the scene does not have is listed.\n"
       "Exit status: 0 done, 2 bad input.\n"
       "Example:  presa import gripper.urdf --out gripper && presa run gripper/gripper.xml --view window");
   command.action([wanted, &status] { status = importFile(*wanted); });

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "apps/common/terminal/job_progress.h"
@@ -29,8 +30,8 @@ int makeModel(const model::Wanted& wanted) {
   if (!made) return kExitBadInput;
   const std::string body = model::write(wanted, *made);
   std::fputs(model::figuresText(*made).c_str(), stdout);
-  std::printf("\n%s, for a scene in %s:\n%s", body.c_str(), model::sceneFolder(wanted).c_str(),
-              model::bodyText(wanted, *made).c_str());
+  std::printf("\n%s, for a scene in %s:\n%s", body.c_str(),
+              std::filesystem::proximate(model::sceneFolder(wanted)).c_str(), model::bodyText(wanted, *made).c_str());
   if (model::liesOutside(wanted))
     std::printf("%s lies elsewhere: copy it there, or run the scene with --allow-folder and its folder\n",
                 wanted.file.c_str());
@@ -64,7 +65,8 @@ void addModel(Command app, int& status) {
   command.footer(
       "The body is drawn as the model, with its colours and textures; fingers feel the haptic mesh, other bodies the "
       "pieces.\n"
-      "config/MODELS.md says how models are drawn. The output lies best beside the model or below it, where a scene beside "
+      "config/MODELS.md says how models are drawn. The output lies best beside the model or below it, where a scene "
+      "beside "
       "the\nmodel may name all files.\n"
       "Exit status: 0 done, 2 bad input (nothing written), 130 Ctrl-C (likewise).\n"
       "Example:  presa model drum.glb --out drum --haptic-error 0.2 --pieces 8");

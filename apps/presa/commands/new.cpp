@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "apps/common/replace_all.h"
 #include "apps/presa/commands/commands.h"
 #include "apps/presa/templates/templates.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -28,11 +29,6 @@ struct NewArguments {
 struct NewFile {
   std::string path, text;
 };
-
-void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
 
 /// Replaces the one place where `from` stands.
 void replaceIn(std::string& text, const std::string& from, const std::string& to) {

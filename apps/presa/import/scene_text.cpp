@@ -63,10 +63,11 @@ class Writer {
     files_.scene = head() + materials_text_ + "  </materials>\n" + bodies + joints_ +
                    "  <devices>\n    <device role=\"thumb\"/>\n    <device role=\"index\"/>\n  </devices>\n</scene>\n";
     files_.others[settings_.name + "_rig.xml"] =
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Mouse and keys of the window move both fingers. -->\n"
-        "<rig version=\"1.0\" name=\"" +
-        settings_.name +
-        "\">\n  <device role=\"thumb\" driver=\"pointer\"/>\n  <device role=\"index\" driver=\"pointer\"/>\n</rig>\n";
+        rig("_rig", "Mouse and keys of the window move both fingers.", "driver=\"pointer\"/>");
+    files_.others[settings_.name + "_away.xml"] =
+        rig("_away", "Both fingers stay above the bodies: for runs without a window.",
+            "driver=\"scripted\"><set key=\"motion\" value=\"" + settings_.name + "_away.csv\"/></device>");
+    files_.others[settings_.name + "_away.csv"] = awayMotion();
     return std::move(files_);
   }
 
@@ -76,6 +77,23 @@ class Writer {
            std::to_string(kFormatMinor) + "\" name=\"" + settings_.name + "\" rig=\"" + settings_.name +
            "_rig.xml\"\n       description=\"Imported from " + xml::escaped(settings_.source) + "\">\n  <world" +
            vectorText("gravity", robot_.gravity) + "/>\n  <materials>\n";
+  }
+
+  std::string rig(const std::string& kind, const std::string& comment, const std::string& device) const {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- " + comment + " -->\n<rig version=\"1.0\" name=\"" +
+           settings_.name + kind + "\">\n  <device role=\"thumb\" " + device + "\n  <device role=\"index\" " + device +
+           "\n</rig>\n";
+  }
+
+  /// Keyframes for ten seconds, half a metre above the highest link.
+  std::string awayMotion() const {
+    double top = 0;
+    for (const Link& link : robot_.links) top = std::max(top, link.X_WL.p.z());
+    std::string text = "time_s,role,x_m,y_m,z_m,phase\n";
+    for (const int time : {0, 10})
+      for (const auto& [role, x] : {std::pair{"thumb", -0.05}, {"index", 0.05}})
+        text += format("%d,%s,%g,0,%.3f,wait\n", time, role, x, top + 0.5);
+    return text;
   }
 
   /// The name of the material with this part's friction and colour.

@@ -20,10 +20,7 @@ std::optional<xml::Element> rootOf(const xml::Element& robot) {
 }
 
 /// Elements of xacro, which makes URDF from a text with macros.
-bool isXacro(const xml::Element& element) {
-  static const std::set<std::string> kXacro{"include", "macro", "property", "arg", "if", "unless", "insert_block"};
-  return kXacro.contains(element.name());
-}
+bool isXacro(const xml::Element& element) { return element.name().starts_with("xacro:"); }
 
 }  // namespace
 

@@ -70,6 +70,14 @@ TEST_F(Defaults, WithoutAClassTheyAreForAll) {
   EXPECT_EQ(scene.devices[1].fingertip_radius, 0.01);
 }
 
+TEST_F(Defaults, AnEmptyElementTakesWhatIsInIt) {
+  const Scene scene = load(kBrick + R"(<body name="a" class="brick"><physics mass="0.2"/></body>)");
+  ASSERT_FALSE(found_.hasErrors()) << found_.text();
+  EXPECT_EQ(scene.bodies[0].mass, 0.2);
+  EXPECT_FALSE(scene.bodies[0].density);
+  EXPECT_EQ(std::get<Box>(scene.bodies[0].physics->shape).size, Vec3(1, 2, 3));
+}
+
 TEST_F(Defaults, OverridesComeAfterThem) {
   const Scene scene = load(kBrick + R"(<body name="a" class="brick"/>)", {{"body/a/physics/mass", "3"}});
   ASSERT_FALSE(found_.hasErrors()) << found_.text();

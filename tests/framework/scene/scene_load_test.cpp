@@ -176,7 +176,7 @@ TEST(SceneLoad, ReadsScenesOfOlderFormats) {
   EXPECT_THAT(scene.resolved_xml, testing::HasSubstr("version=\"1.1\""));
   EXPECT_THAT(scene.resolved_xml, testing::Not(testing::HasSubstr("max_triangles")));
   Diagnostics found;
-  parseScene(edited(old, "version=\"1.0\"", "version=\"1.1\""), "scene.xml", "", {}, found);
+  parseScene(edited(old, "<scene version=\"1.0\"", "<scene version=\"1.1\""), "scene.xml", "", {}, found);
   EXPECT_THAT(found.text(), testing::HasSubstr("unknown attribute 'max_triangles' on <collision>"));
 }
 
