@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/robot_reader/robot.h"
+#include "apps/robot_reader/trial.h"
 #include "framework/geometry/srgb.h"
 
 namespace presa::robot {
@@ -181,7 +182,7 @@ class Reading {
   mjData& d_;
 };
 
-std::string read(const std::string& file, Robot& robot) {
+std::string readHere(const std::string& file, Robot& robot) {
   const Handlers handlers;
   std::array<char, kMaxMessage> message{};
   try {
@@ -194,6 +195,15 @@ std::string read(const std::string& file, Robot& robot) {
   } catch (const std::exception& error) {
     return error.what();
   }
+}
+
+/// A child process reads the file first: a file that crashes MuJoCo crashes the child.
+std::string read(const std::string& file, Robot& robot) {
+  const std::string problem = trial([&] {
+    Robot tried;
+    return readHere(file, tried);
+  });
+  return problem.empty() ? readHere(file, robot) : problem;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void addImport(Command app, int& status) {
   command.footer(
       "Links become bodies with the masses and inertias of the file, and its joints become joints with limits, "
       "springs,\n"
-      "damping and friction. Fingers feel what collides. What the scene does not have is listed.\n"
+      "damping and friction. Fingers feel what collides. The command lists all that the scene lacks.\n"
       "Exit status: 0 done, 2 bad input.\n"
       "Example:  presa import gripper.urdf --out gripper && presa run gripper/gripper.xml --view window");
   command.action([wanted, &status] { status = importFile(*wanted); });

@@ -46,6 +46,7 @@ class Preparation {
   void leaveOut(xml::Element of, const std::string& attribute, const std::string& what);
   /// The mesh as an OBJ file, so that only Presa's own reader opens the file; empty with an error.
   std::string meshFile(const std::string& path, const SourceLocation& where, const Vec3& scale = Vec3::Ones());
+  void refuseOddNumbers(const xml::Element& element);
   bool fail(int code, const SourceLocation& where, const std::string& what, const std::string& help = {});
 
   const std::string& file_;

@@ -9,6 +9,7 @@
 #include "framework/geometry/tri_mesh.h"
 #include "framework/input/folders.h"
 #include "framework/scene/xml/source_scan.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa::robot {
 namespace {
@@ -79,6 +80,7 @@ std::optional<Source> Preparation::run() {
   else
     fail(kNeither, root.where(), "<" + root.name() + "> is the root of neither URDF nor MJCF",
          "URDF begins with <robot>, MJCF with <mujoco>");
+  refuseOddNumbers(root);
   if (diagnostics_.hasErrors()) return std::nullopt;
   if (source_.name.empty()) source_.name = fs::path(file_).stem().string();
   source_.file = scratch_ / "model.xml";
@@ -89,6 +91,21 @@ std::optional<Source> Preparation::run() {
 bool Preparation::fail(int code, const SourceLocation& where, const std::string& what, const std::string& help) {
   diagnostics_.error(code, where, what, help);
   return false;
+}
+
+// MuJoCo reads "nan" as a number.
+void Preparation::refuseOddNumbers(const xml::Element& element) {
+  static const Names kTexts{"name", "class", "childclass", "file",  "filename",
+                            "link", "mesh",  "material",   "model", "joint"};
+  for (const std::string& name : element.attributeNames()) {
+    if (kTexts.contains(name)) continue;
+    for (const std::string& word : xml::splitWords(element.attribute(name))) {
+      double number = 0;
+      if (xml::readNumber(word, number) == xml::NumberKind::kNotFinite)
+        fail(kUnreadable, element.where(name), quote(name) + " is not finite, found " + quote(element.attribute(name)));
+    }
+  }
+  for (const xml::Element& child : element.children()) refuseOddNumbers(child);
 }
 
 void Preparation::leaveOut(xml::Element element) {

@@ -74,12 +74,17 @@ void Preparation::urdfMesh(xml::Element mesh) {
 }
 
 void Preparation::urdfJoint(const xml::Element& joint) {
+  static const std::vector<std::string> kTypes{"revolute", "continuous", "prismatic", "fixed", "floating", "planar"};
+  const std::string kind = joint.attribute("type");
+  if (std::ranges::find(kTypes, kind) == kTypes.end()) {
+    fail(kUnreadable, joint.where("type"), "URDF has no joint of type " + quote(kind) + didYouMean(kind, kTypes),
+         "revolute, continuous, prismatic, fixed, floating, planar");
+  }
   keepOnly(joint, {"origin", "parent", "child", "axis", "limit", "dynamics"});
   for (const xml::Element& limit : joint.children("limit")) {
     if (limit.number("effort", 0) != 0 || limit.number("velocity", 0) != 0)
       source_.left_out.add("effort and velocity of <limit>", limit.where());
-    const std::string type = joint.attribute("type");
-    if ((type == "revolute" || type == "prismatic") && limit.number("lower", 0) >= limit.number("upper", 0))
+    if ((kind == "revolute" || kind == "prismatic") && limit.number("lower", 0) >= limit.number("upper", 0))
       source_.left_out.add("<limit> whose upper end is not above its lower one", limit.where());
   }
 }

@@ -85,7 +85,7 @@ TEST(Inertia, OfADumbbellIsTheSumOfItsShapes) {
   EXPECT_TRUE(diagnostics.all().empty());
 }
 
-// What a scene gives replaces what the shapes have.
+// Values of the scene replace those of the shapes.
 TEST(Inertia, OfTheSceneCounts) {
   Body body = freeBody(Box{{0.1, 0.2, 0.4}}, 0.6);
   body.p_BCm = Vec3(0.01, 0, 0.02);

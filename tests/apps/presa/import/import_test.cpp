@@ -209,7 +209,11 @@ TEST_F(Import, MistakesAreFoundAtTheirPlaces) {
   EXPECT_THAT(refusal("<scene/>"),
               AllOf(HasSubstr("bad.xml:1:"), HasSubstr("error[E130]"), HasSubstr("neither URDF nor MJCF")));
   EXPECT_THAT(refusal("<robot name=\"a\"><link>"), HasSubstr("error[E104]"));
-  EXPECT_THAT(refusal("<robot name=\"a\">\n<link name=\"b\"/>\n<joint name=\"j\" type=\"hinge\"><parent link=\"b\"/>"
+  EXPECT_THAT(refusal("<robot name=\"a\"><link name=\"b\"/><joint name=\"j\" type=\"hinge\"/></robot>"),
+              AllOf(HasSubstr("error[E131]"), HasSubstr("no joint of type 'hinge'")));
+  EXPECT_THAT(refusal("<mujoco><worldbody><geom size=\"nan\"/></worldbody></mujoco>"),
+              AllOf(HasSubstr("error[E131]"), HasSubstr("'size' is not finite")));
+  EXPECT_THAT(refusal("<robot name=\"a\">\n<link name=\"b\"/>\n<joint name=\"j\" type=\"fixed\"><parent link=\"b\"/>"
                       "<child link=\"c\"/></joint>\n</robot>"),
               AllOf(HasSubstr("error[E131]"), HasSubstr("MuJoCo cannot read the model")));
   EXPECT_THAT(refusal("<mujoco>\n<worldbody>\n<body>\n<freejoint/>\n<geom type=\"box\" size=\"1 "
