@@ -143,11 +143,15 @@ TEST(Mistakes, AFaultIsToldInAQuietRun) {
 // A program without its scenes says so at once, and does not fail 830 trials. Copied, it finds no folder experiments.
 TEST(Mistakes, StabilityWithoutItsScenesSaysWhatItNeeds) {
   const std::filesystem::path folder = scratch("moved");
-  std::filesystem::create_directories(folder / "a/b/c/d/bin");
-  const std::filesystem::path program = folder / "a/b/c/d/bin/presa-stability";
+  const std::filesystem::path moved = folder / "a/b/c/d", program = moved / "bin/presa-stability";
+  std::filesystem::create_directories(moved / "bin");
+  std::filesystem::create_directories(moved / "lib/presa");
   std::filesystem::copy_file(PRESA_BINARY_DIR "/bin/presa-stability", program);
-  const auto outcome = test::shell("cd " + folder.string() + "; LD_LIBRARY_PATH=" PRESA_BINARY_DIR "/lib/presa " +
-                                   program.string() + " --quick");
+  // the folder experiments is looked for above the library
+  std::filesystem::copy_file(PRESA_BINARY_DIR "/lib/presa/libpresa_framework.so",
+                             moved / "lib/presa/libpresa_framework.so");
+  const auto outcome = test::shell("cd " + folder.string() + "; LD_LIBRARY_PATH=" + (moved / "lib/presa").string() +
+                                   " " + program.string() + " --quick");
   EXPECT_EQ(outcome.status, 2) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("error[E615]"));
   EXPECT_THAT(outcome.err, HasSubstr("set PRESA_EXPERIMENTS to the folder experiments"));
