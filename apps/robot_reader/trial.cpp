@@ -38,7 +38,7 @@ void limit(int resource, rlim_t value) {
   const std::string said = work();
   const char end = '\0';  // whoever finishes says so, even if it says nothing else
   const bool whole =
-      write(to, said.data(), said.size()) == static_cast<ssize_t>(said.size()) && write(to, &end, 1) == 1;
+      ::write(to, said.data(), said.size()) == static_cast<ssize_t>(said.size()) && ::write(to, &end, 1) == 1;
   _exit(whole ? 0 : 1);  // run neither destructors nor exit handlers of the parent
 }
 
@@ -46,7 +46,7 @@ std::string received(int from) {
   std::string said;
   std::array<char, 4096> part{};
   for (;;) {
-    const ssize_t got = read(from, part.data(), part.size());
+    const ssize_t got = ::read(from, part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return said;
     said.append(part.data(), static_cast<std::size_t>(got));
