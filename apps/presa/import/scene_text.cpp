@@ -129,7 +129,7 @@ class Writer {
   /// What fingers feel: the surface, or where a mesh of the file is open, its convex hull.
   std::string haptic(const std::vector<Part>& solid, const std::string& body) {
     if (solid.size() == 1 && isPrimitive(solid[0])) return one("haptic", "", solid[0]);
-    TriMesh all;
+    std::vector<TriMesh> felt;
     for (const Part& part : solid) {
       TriMesh mesh = surfaceOf(part, robot_);
       if (part.solid == Solid::kMesh && !isSound(mesh)) {
@@ -137,9 +137,9 @@ class Writer {
         files_.notes.push_back("'" + body + "': fingers feel the convex hull of mesh '" + robot_.names[part.mesh] +
                                "', which is not closed");
       }
-      append(all, mesh);
+      felt.push_back(std::move(mesh));
     }
-    return "    <haptic>" + file(body + "_felt", objText(all, kDigits)) + "</haptic>\n";
+    return "    <haptic>" + file(body + "_felt", objText(together(felt), kDigits)) + "</haptic>\n";
   }
 
   static bool isSound(const TriMesh& mesh) {

@@ -9,10 +9,12 @@
 namespace presa::robot {
 namespace {
 
-constexpr double kEndless = 10;  // edge of a plane without an end [m]
-constexpr double kSlab = 0.1;    // thickness of a plane [m]
-constexpr double kZero = 1e-12;  // what rounding leaves of zero
-constexpr int kFine = 3;         // subdivisions of a sphere: chord error below 0.5 % of the radius
+constexpr double kEndless = 10;   // edge of a plane without an end [m]
+constexpr double kSlab = 0.1;     // thickness of a plane [m]
+constexpr double kZero = 1e-12;   // what rounding leaves of zero
+constexpr double kWelded = 1e-6;  // of a mesh's diagonal: vertices nearer than this become one where it is read
+constexpr double kShrunk = 1e-4;  // of a solid's size: 0.01 mm of 100 mm
+constexpr int kFine = 3;          // subdivisions of a sphere: chord error below 0.5 % of the radius
 
 using terminal::format;
 
@@ -93,10 +95,36 @@ TriMesh surfaceOf(const Part& part, const Robot& robot) {
   return mesh;
 }
 
+namespace {
+
 void append(TriMesh& to, const TriMesh& mesh) {
   const auto first = static_cast<std::int32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const TriMesh::Triangle& t : mesh.triangles) to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+/// Whether edges of two of its parts become one where a mesh is read.
+bool growsTogether(TriMesh mesh) {
+  const AxisBox box = boundsOf(mesh);
+  weld(mesh, kWelded * (box.high - box.low).norm());
+  return checkMesh(mesh).non_manifold > 0;
+}
+
+}  // namespace
+
+TriMesh together(const std::vector<TriMesh>& solids) {
+  TriMesh all;
+  for (const TriMesh& mesh : solids) append(all, mesh);
+  if (!growsTogether(all)) return all;
+  TriMesh apart;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    TriMesh mesh = solids[i];
+    const AxisBox box = boundsOf(mesh);
+    const Vec3 middle = (box.low + box.high) / 2;
+    for (Vec3& vertex : mesh.vertices) vertex -= kShrunk * static_cast<double>(i + 1) * (vertex - middle);
+    append(apart, mesh);
+  }
+  return apart;
 }
 
 std::string coloredObj(const std::vector<Part>& parts, const Robot& robot) {

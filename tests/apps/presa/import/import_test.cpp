@@ -296,6 +296,18 @@ TEST_F(Import, WhatMuJoCoMeansIsKept) {
               HasSubstr("three numbers"));
 }
 
+// Boxes that share a face, and one that is there twice.
+TEST_F(Import, SolidsThatCoincideAreFelt) {
+  wanted_.file = scratch_.file("stack.xml");
+  const std::string box = "<geom type=\"box\" size=\"0.05 0.05 0.05\" pos=\"0 0 ";
+  std::ofstream(wanted_.file) << "<mujoco><worldbody><body name=\"stack\"><freejoint/>" + box + "0\"/>" + box +
+                                     "0.1\"/>" + box + "0.1\"/></body></worldbody></mujoco>";
+  import(wanted_.file);
+  const TriMesh& felt = *world_->meshes[indexOf("stack")].haptic;
+  EXPECT_TRUE(checkMesh(felt).closed());
+  EXPECT_NEAR(massProperties(felt).volume, 3e-3, 3e-3 * 3 * 3e-4);
+}
+
 // The moments of a thin plate, whose largest is the sum of the others to the last digit.
 TEST_F(Import, AThinPlateIsARealBody) {
   wanted_.file = scratch_.file("plate.urdf");
