@@ -28,7 +28,8 @@ struct GraspFigures {
   bool lifted = false;                  ///< the motion has a phase that lifts
   double lift_height = 0;               ///< mean height of the object's origin during hold above its start [m]
   double held_in_stick = 0;             ///< longest unbroken time in hold with every holding finger in stick [s]
-  bool carried = true;  ///< by the fingers alone; else a joint or a body effect takes part, and turn and slip_limit are left out
+  bool carried =
+      true;  ///< by the fingers alone; else a joint or a body effect takes part, and turn and slip_limit are left out
   std::optional<GraspTurn> turn;  ///< of object and hand, from the begin of the grasp to the end of the hold
   /// Normal force per finger at which friction stops carrying the weight, m g / (n mu_s), for n equal fingers on
   /// upright faces [N].

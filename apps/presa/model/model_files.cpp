@@ -68,9 +68,7 @@ std::string sceneFolder(const Wanted& wanted) {
   return isWithin(out, model) ? model.string() : out.string();
 }
 
-bool liesOutside(const Wanted& wanted) {
-  return !isWithin(fs::weakly_canonical(wanted.file), sceneFolder(wanted));
-}
+bool liesOutside(const Wanted& wanted) { return !isWithin(fs::weakly_canonical(wanted.file), sceneFolder(wanted)); }
 
 std::string bodyText(const Wanted& wanted, const Made& made) {
   const fs::path home = sceneFolder(wanted);
@@ -84,8 +82,7 @@ std::string bodyText(const Wanted& wanted, const Made& made) {
   std::string text = "<body name=\"" + made.name + "\">\n  <visual><mesh file=\"" + xml::escaped(visual) + "\"" +
                      scale + "/></visual>\n  <haptic>" + mesh(hapticFile(made.name)) + "</haptic>\n" +
                      terminal::format("  <physics density=\"%.9g\">\n", wanted.density);
-  for (std::size_t i = 0; i < made.physics.pieces.size(); ++i)
-    text += "    " + mesh(pieceFile(made.name, i)) + "\n";
+  for (std::size_t i = 0; i < made.physics.pieces.size(); ++i) text += "    " + mesh(pieceFile(made.name, i)) + "\n";
   return text + "  </physics>\n</body>\n";
 }
 

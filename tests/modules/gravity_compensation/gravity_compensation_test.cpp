@@ -10,7 +10,8 @@ namespace {
 constexpr double kMass = 0.2, kGravity = 9.81;  // of the field's cube
 
 TEST(GravityCompensation, CarriesItsShareOfTheWeight) {
-  test::BodyEffectField all("<gravity_compensation max_force=\"10\"/>"), part("<gravity_compensation share=\"0.25\" max_force=\"10\"/>");
+  test::BodyEffectField all("<gravity_compensation max_force=\"10\"/>"),
+      part("<gravity_compensation share=\"0.25\" max_force=\"10\"/>");
   EXPECT_TRUE(all.at({}).f_W.isApprox(Vec3(0, 0, kMass * kGravity)));
   EXPECT_TRUE(
       part.at({.v_WCm = Vec3(3, 0, 0), .w_WB = Vec3(0, 9, 0)}).f_W.isApprox(Vec3(0, 0, 0.25 * kMass * kGravity)));
