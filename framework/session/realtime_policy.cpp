@@ -57,11 +57,11 @@ double forceShare(bool hardware, const RunOptions& options, const RealtimeProbe&
   if (rights.granted()) return 1;
   const std::string refused = refusalOf(rights);
   if (!options.allow_no_rt) {
-    refuse(463, "", refused + ": other programs could delay the control of a device that is pushing a hand",
-           "grant it to your group in /etc/security/limits.conf: '@plugdev - rtprio 90' and '@plugdev - memlock "
-           "unlimited', and log "
-           "in again ('ulimit -r', 'ulimit -l' show it); `presa run --allow-no-rt` goes on with half the force, an "
-           "experiment does not");
+    refuse(
+        463, "", refused + ": other programs could delay the control of a device that is pushing a hand",
+        "write '@plugdev - rtprio 95' and '@plugdev - memlock unlimited' to /etc/security/limits.d/presa.conf, and log "
+        "in again ('ulimit -r', 'ulimit -l' show it); `presa run --allow-no-rt` goes on with half the force, an "
+        "experiment does not");
   }
   notes.push_back(refused + ", as allowed: every force limit is halved");
   return kShareWithoutRights;

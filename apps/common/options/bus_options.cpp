@@ -28,7 +28,8 @@ void addBusOptions(Command command, std::optional<BusSettings>& bus, const std::
       .withinCount(kMinBusDomain, kMaxBusDomain);
   command.each(
       "--bus-keys", [settings](const std::string& folder) { settings().keys = folder; },
-      "folder of this process's certificate, one of DIR/run, DIR/viewer and DIR/commander that presa bus keys makes");
+      "folder of this process's certificate, one of DIR/run, DIR/viewer, DIR/commander and DIR/guide that presa bus "
+      "keys makes");
 }
 
 void addMeshesOption(Command command, std::vector<std::string>& folders) {

@@ -211,12 +211,11 @@ void addBusSet(Command app, int& status) {
   command.option("--wait", a->wait, "seconds to wait for the run, and for each answer").nonNegative().showDefault();
   command.footer(
       "Parameters that may be set, if the run has them: material/NAME/stiffness (up to what the scene loaded with),\n"
-      "material/NAME/friction/static and /dynamic (up to twice that), time/held (0, 1) and time/speed of a lockstep "
-      "run\n"
-      "that is kept to the clock, assembly/undone (a value one higher removes the body placed last). Surfaces change "
-      "within half "
-      "a\n"
-      "second, so that a finger feels no step. Forces, limits and faults cannot be set from elsewhere.\n"
+      "material/NAME/friction/static (up to twice that) and /dynamic (up to the static one), time/held (0, 1) and\n"
+      "time/speed of a lockstep run that is kept to the clock, assembly/undone (a value one higher removes the body "
+      "placed\n"
+      "last). Surfaces change within half a second, so that a finger feels no step. Forces, limits and faults cannot "
+      "be set from elsewhere.\n"
       "Exit status: 0 all accepted, 1 one was refused, 2 bad input, 3 no such run or no answer, 130 Ctrl-C.\n"
       "Example:  presa run config/scenes/cube.xml --bus loopback --bus-commands &\n"
       "          presa bus list;  presa bus set material/rubber/stiffness=500");

@@ -104,7 +104,7 @@ TEST(RealTimeRights, HardwareIsRefusedWithoutThem) {
   };
   const std::string refused = run("--rig " + rig);
   EXPECT_TRUE(refused.starts_with("2\n")) << refused;
-  for (const char* word : {"E463", "SCHED_FIFO", "limits.conf", "ulimit -r", "--allow-no-rt"})
+  for (const char* word : {"E463", "SCHED_FIFO", "limits.d", "ulimit -r", "--allow-no-rt"})
     EXPECT_NE(refused.find(word), std::string::npos) << refused;
   // when allowed, the run fails later: there is no Falcon
   const std::string allowed = run("--allow-no-rt --rig " + rig);
