@@ -23,21 +23,23 @@ TEST(ParticipantWindow, OpensBeforeTheFirstTrialAndTakesTheAnswer) {
   std::ofstream(scratch.file("rig.xml")) << "<rig version=\"1.0\" name=\"desk\">"
                                             "<device role=\"index\" driver=\"pointer\"/></rig>";
   std::ofstream(scratch.file("people.sh"))
+      // The pointer stands outside of both windows, so that none takes the focus: xdotool sends keys to a window without
+      // the focus alone. A key that is pressed for the focus is also seen by a window that comes under the pointer.
+      << "xdotool mousemove 1399 899 sleep 250 & pointer=$!; sleep 1\n"
       << kCommand << " experiment run " << kAsking << " --rig " << scratch.file("rig.xml")
-      << " --subject S01 --operator window --window --data " << data << " &\n"
+      << " --subject S01 --operator window --window --data " << data << " & presa=$!\n"
       << "participant=$(timeout 60 xdotool search --sync --onlyvisible --name '^Presa$')\n"
       << "operator=$(timeout 60 xdotool search --sync --onlyvisible --name operator)\n"
       << "grep -c trial_begin " << journal << " > " << scratch.file("trials_before")
       << "\n"
-      // keys go to a window by its number: a window that opens late takes the focus from the other one.
-      // What the participant types before the question is no answer and stops nothing
-      << "xdotool key --window $participant q key --window $participant 2\n"
+      // what the participant types before the question is no answer and stops nothing
+      << "xdotool key --window $participant q 2\n"
       << "for i in $(seq 60); do xdotool key --window $operator space\n"
       << "sleep 0.5; grep -q trial_begin " << journal << " && break; done\n"
       << "for i in $(seq 120); do xdotool key --window $participant 2\n"
       << "sleep 0.5; grep -q trial_end " << journal << " && break; done\n"
-      << "while kill -0 $! 2> /dev/null; do xdotool key --window $operator q; sleep 0.5; done\n"
-      << "wait $!; echo $? > " << scratch.file("status") << "\n";
+      << "while kill -0 $presa 2> /dev/null; do xdotool key --window $operator q; sleep 0.5; done\n"
+      << "kill $pointer; wait $presa; echo $? > " << scratch.file("status") << "\n";
   // ignore the status: xvfb-run also fails when it cannot clean up
   std::ignore = std::system(("timeout 200 xvfb-run -a -s '-screen 0 1400x900x24' bash " + scratch.file("people.sh") +
                              " > " + scratch.file("log") + " 2>&1")
