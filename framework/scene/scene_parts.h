@@ -17,9 +17,8 @@ inline constexpr int kFormatMinor = 1;  ///< the second number of the format
 /// report.
 void checkVersion(const xml::Element& root, const std::string& kind, int code, Diagnostics& diagnostics);
 
-/// Turns a scene of an older format 1.x into one of this release; other texts stay as they are. Returns whether names had
-/// to be changed.
-bool upgrade(xml::Element root);
+/// Turns a scene of an older format 1.x into one of this release; other texts stay as they are.
+void upgrade(xml::Element root);
 
 /// The number in an attribute, or none when the attribute is absent.
 inline std::optional<double> optionalNumber(const xml::Element& element, const std::string& attribute) {

@@ -22,16 +22,15 @@ constexpr std::array kChanges{
     Change{1, "collision", "max_triangles", ""},  // it had no effect any more: patches are not bounded
 };
 
-void apply(const Change& change, const Element& at, const std::string& path, bool& changed) {
+void apply(const Change& change, const Element& at, const std::string& path) {
   const std::size_t slash = path.find('/');
   for (Element child : at.children(path.substr(0, slash))) {
     if (slash != std::string::npos) {
-      apply(change, child, path.substr(slash + 1), changed);
+      apply(change, child, path.substr(slash + 1));
     } else if (child.hasAttribute(change.attribute)) {
       if (*change.now != '\0' && !child.hasAttribute(change.now))
         child.setAttribute(change.now, child.attribute(change.attribute), child.where(change.attribute));
       child.removeAttribute(change.attribute);
-      changed = true;
     }
   }
 }
@@ -46,18 +45,16 @@ int minorOf(const std::string& version) {
 
 }  // namespace
 
-bool upgrade(xml::Element root) {
+void upgrade(xml::Element root) {
   const int minor = minorOf(root.attribute("version"));
-  if (minor < 0 || minor >= kFormatMinor) return false;
-  bool changed = false;
+  if (minor < 0 || minor >= kFormatMinor) return;
   for (const Change& change : kChanges)
     if (change.minor > minor) {
-      apply(change, root, change.path, changed);
-      for (const Element& defaults : root.children("defaults")) apply(change, defaults, change.path, changed);
+      apply(change, root, change.path);
+      for (const Element& defaults : root.children("defaults")) apply(change, defaults, change.path);
     }
   root.setAttribute("version", std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor),
                     root.where("version"));
-  return changed;
 }
 
 }  // namespace presa

@@ -87,17 +87,18 @@ class Axis {
 std::string ballText(const std::vector<Freedom>& freedoms, const std::string& whose, std::vector<std::string>& notes) {
   Freedom all;
   all.kind = Kind::kBall;
-  bool stops = false, springs = false;
+  bool stops = false, springs = false, armature = false;
   for (const Freedom& f : freedoms) {
     stops = stops || f.limited;
     springs = springs || f.stiffness != 0;
     all.damping = std::max(all.damping, f.damping);
     all.friction = std::max(all.friction, f.friction);
-    all.armature = std::max(all.armature, f.armature);
+    armature = armature || f.armature != 0;
   }
   if (stops) notes.push_back(whose + ": the limits of a ball joint are left out");
   if (springs) notes.push_back(whose + ": the springs of a ball joint are left out");
-  return all.damping == 0 && all.friction == 0 && all.armature == 0 ? "" : Axis(all, whose, notes).text();
+  if (armature) notes.push_back(whose + ": its armature is left out");
+  return all.damping == 0 && all.friction == 0 ? "" : Axis(all, whose, notes).text();
 }
 
 /// A link that can go anywhere in a plane, or in space, and turn there: it hangs on the world for bookkeeping alone.
@@ -118,14 +119,12 @@ std::optional<JointText> jointOf(const Link& link, const std::string& name, cons
                                  const std::string& to) {
   JointText joint;
   const std::vector<Freedom>& f = link.freedoms;
-  joint.free = !f.empty() && f.front().kind == Kind::kFree;
-  if (joint.free) {
+  if (!f.empty() && f.front().kind == Kind::kFree) {
     if (hasMore(f.front())) joint.notes.push_back("'" + body + "' moves freely: damping and armature are left out");
     return joint;
   }
   const std::string type = typeOf(f), whose = "joint '" + name + "'";
   if (type.empty() && to.empty() && isNearlyFree(f)) {
-    joint.free = true;
     joint.notes.push_back("'" + body + "' moves freely; in the file it has " + std::to_string(f.size()) +
                           " joints with the world" +
                           (std::ranges::any_of(f, hasMore) ? ", whose limits, springs and damping are left out" : ""));

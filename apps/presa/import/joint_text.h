@@ -9,8 +9,7 @@ namespace presa::robot {
 
 /// The joint of a link that hangs on its parent.
 struct JointText {
-  bool free = false;               ///< no joint: the link moves freely
-  std::string text;                ///< the element <joint>
+  std::string text;                ///< the element `<joint>`; empty: the link moves freely
   std::vector<std::string> notes;  ///< what is not in it, a sentence each
 };
 

@@ -31,7 +31,7 @@ class Preparation {
   std::string urdfFile(const std::string& name, const SourceLocation& where);
 
   void mjcf(xml::Element root);
-  void mjcfIncludes(const xml::Element& in, const std::string& file);
+  void mjcfIncludes(const xml::Element& in);
   bool mjcfInclude(const xml::Element& include);
   void mjcfOptions(const xml::Element& root);
   void mjcfAssets(const xml::Element& root);

@@ -30,7 +30,7 @@ bool makesBodies(const xml::Element& element) {
 void Preparation::mjcf(xml::Element root) {
   source_.name = root.attribute("model");
   included_.insert(fs::weakly_canonical(file_).string());
-  mjcfIncludes(root, file_);
+  mjcfIncludes(root);
   if (diagnostics_.hasErrors()) return;
   keepOnly(root, {"compiler", "option", "default", "asset", "worldbody"});
   compiler(root);
@@ -40,11 +40,11 @@ void Preparation::mjcf(xml::Element root) {
   for (const xml::Element& world : root.children("worldbody")) mjcfBody(world);
 }
 
-void Preparation::mjcfIncludes(const xml::Element& in, const std::string& file) {
+void Preparation::mjcfIncludes(const xml::Element& in) {
   for (const xml::Element& child : in.children()) {
     if (diagnostics_.hasErrors()) return;
     if (!isInclude(child))
-      mjcfIncludes(child, file);
+      mjcfIncludes(child);
     else if (!mjcfInclude(child))
       return;
   }
@@ -62,7 +62,7 @@ bool Preparation::mjcfInclude(const xml::Element& include) {
     return fail(kNoFile, where, quote(file) + " is included a second time", "include each file once");
   const auto included = xml::Document::load(file, diagnostics_);
   if (included == nullptr) return false;
-  mjcfIncludes(included->root(), file);
+  mjcfIncludes(included->root());
   elements_ += elementsIn(included->root());
   if (elements_ > kMostCopied)
     return fail(kNoFile, where, "included files have more than " + std::to_string(kMostCopied) + " elements");
