@@ -20,12 +20,13 @@
 #include "apps/temple/models/block_models.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/ruins_cache.h"
-#include "apps/temple/sound/loudspeaker.h"
 #include "apps/temple/visit.h"
 #include "apps/temple/visit_counts.h"
 #include "apps/temple/voice.h"
 #include "apps/temple/written_scene.h"
 #include "framework/core/diagnostics/printable.h"
+#include "framework/input/on_path.h"
+#include "framework/sound/loudspeaker.h"
 
 namespace presa {
 namespace {
@@ -84,7 +85,7 @@ std::string countsFile(const Arguments& a) {
 /// A visitor at a window hears the stones where there is something to play them.
 bool soundByItself(const Arguments& a) {
   return a.anybody() && !a.quiet && a.sound_file.empty() && viewOf(a) == RunOptions::View::kWindow &&
-         temple::Loudspeaker::available();
+         sound::Loudspeaker::available();
 }
 
 /// What follows a task: all are offered in turn. Empty: nothing.
@@ -107,7 +108,9 @@ PictureOptions pictureOf(const Arguments& a, Diagnostics& diagnostics) {
 void checkOutputs(const Arguments& a, Diagnostics& diagnostics) {
   pictureOf(a, diagnostics);
   if (a.voice) temple::Voice::check(diagnostics);
-  if (a.sound) temple::Loudspeaker::check(diagnostics);
+  if (a.sound && !input::isOnPath(sound::Loudspeaker::kPlayer))
+    diagnostics.error(963, {"--sound", 0, 0}, "sounds are played by aplay, which is not on the PATH",
+                      "install it (Debian: alsa-utils), or leave out --sound");
   if (a.visit() && !a.automatic && a.rig.empty() && viewOf(a) != RunOptions::View::kWindow)
     diagnostics.error(
         979, {"command line", 0, 0}, "there is nobody to rebuild it: no window for a visitor, and no rig",

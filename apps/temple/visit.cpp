@@ -13,7 +13,7 @@
 #include "apps/temple/help/helped_finger.h"
 #include "apps/temple/shared_finger.h"
 #include "apps/temple/sound/hit_watch.h"
-#include "apps/temple/sound/loudspeaker.h"
+#include "apps/temple/sound/stone_sound.h"
 #include "apps/temple/visit_counts.h"
 #include "apps/temple/visit_log.h"
 #include "apps/temple/visit_observer.h"
@@ -21,6 +21,7 @@
 #include "framework/assembly/captions.h"
 #include "framework/core/diagnostics/printable.h"
 #include "framework/device/device_plugin.h"
+#include "framework/sound/loudspeaker.h"
 
 namespace presa::temple {
 namespace {
@@ -64,7 +65,7 @@ class Visit {
     };
     run.watch = [this](Session& session, char key) { return watch(session, key); };
     run_ = std::make_unique<TerminalRun>(std::move(loaded), std::move(run));
-    if (settings.sound) loudspeaker_ = std::make_unique<Loudspeaker>();
+    if (settings.sound) loudspeaker_ = std::make_unique<sound::Loudspeaker>();
     if (settings.voice) voice_.emplace(settings.language);
     if (!settings.folder.empty())
       log_.emplace(settings.folder, settings.start, world_->scene, settings.language, guideOf(options_));
@@ -83,7 +84,7 @@ class Visit {
     if (log_) log_->note("end", rebuilt.simulated_seconds);
     counts_.leave(rebuilt.simulated_seconds);
     if (hits_ != nullptr) hear({});
-    if (!settings_.sound_file.empty()) writeFileAtomically(settings_.sound_file, wavOf(heard_));
+    if (!settings_.sound_file.empty()) writeFileAtomically(settings_.sound_file, sound::wavOf(heard_));
     return {rebuilt, onward_, again_};
   }
 
@@ -153,8 +154,8 @@ class Visit {
       if (event.kind == GuideEvent::Kind::kPlaced && event.body != kNoBody)
         hits.push_back({event.time, kPutDown, hits_->lengthOf(static_cast<std::size_t>(event.body))});
     for (const Hit& hit : hits) {
-      if (loudspeaker_) loudspeaker_->play(hit);
-      if (!settings_.sound_file.empty()) heard_.push_back(hit);
+      if (loudspeaker_) loudspeaker_->play(strikeOf(hit));
+      if (!settings_.sound_file.empty()) heard_.push_back(strikeOf(hit));
     }
   }
 
@@ -216,9 +217,9 @@ class Visit {
   std::optional<VisitLog> log_;
   std::optional<Voice> voice_;
   HitWatch* hits_ = nullptr;  // owned by the run; null: nothing is heard
-  std::unique_ptr<Loudspeaker> loudspeaker_;
-  std::vector<Hit> heard_;         // for the file
-  std::optional<double> done_at_;  // [s]
+  std::unique_ptr<sound::Loudspeaker> loudspeaker_;
+  std::vector<sound::Strike> heard_;  // for the file
+  std::optional<double> done_at_;     // [s]
   std::uint32_t undone_ = 0, inputs_ = 0, onwards_ = 0;
   VisitCounts counts_;
   double last_input_ = -1e300;  // [s]

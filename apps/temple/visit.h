@@ -21,7 +21,7 @@ struct VisitSettings {
   KeptSession start{};       ///< initial state
   std::string language{};    ///< language, for the log
   bool voice = false;        ///< read the sentences about the blocks aloud (Voice)
-  bool sound = false;        ///< play stone on stone (Loudspeaker)
+  bool sound = false;        ///< play stone on stone (sound::Loudspeaker)
   std::string sound_file{};  ///< WAV of it, written at the end; empty: none
   double density = 2000;     ///< of the stones [kg/m³]
   double full_size = 1;      ///< size of the building over that of its model

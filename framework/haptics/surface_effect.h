@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/haptics/body_hits.h"
 #include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
 #include "framework/plugin/plugin_loader.h"
@@ -21,6 +22,8 @@ struct SurfaceInput {
   const Pose& X_WA;              ///< pose of A
   const Touchables& touchables;  ///< poses of all bodies in this tick
   const Surroundings& near;      ///< the pieces of contact.active are those of Point::kGodObject
+  /// Hits between the bodies, for effects whose manifest says needs="hits"; null in scenes without such an effect.
+  const BodyHits* hits;
 
   /// Takes vectors of A to coordinates of the body: p_B = X_BA(body) * p_A.
   Pose X_BA(std::int32_t body) const noexcept { return touchables.frameOf(body).inverse() * X_WA; }
@@ -40,7 +43,7 @@ struct SurfaceContact {
 };
 
 /// Changes how a surface feels where a tool touches it: its normal, its height, its stiffness. One object for each body
-/// that has the element, in itself or in its material; the effects of a body act in the order of the scene.
+/// that has the element, in itself or in its material, and for every touchable body if the element stands in the scene; the effects of a body act in the order of the scene.
 /// Thread: haptic, except for construction and what(); no allocation, lock, exception or system call.
 class SurfaceEffect {
  public:

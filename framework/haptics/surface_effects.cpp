@@ -32,7 +32,9 @@ std::vector<PluginElement> surfaceEffectsOf(const Scene& scene) {
     if (!body.haptic) continue;
     const auto index = static_cast<std::int32_t>(b);
     for (const PluginElement& element : scene.plugin_elements) {
-      const bool of_it = element.body == index || element.material == static_cast<std::int32_t>(body.material);
+      const bool of_scene = element.body == kNoBody && element.material < 0;
+      const bool of_it =
+          of_scene || element.body == index || element.material == static_cast<std::int32_t>(body.material);
       if (element.kind != PluginKind::kSurfaceEffect || !of_it) continue;
       all.push_back(element);
       all.back().body = index;

@@ -48,7 +48,7 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
-      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial}},
+      {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial, Place::kScene}},
       {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
       {PluginKind::kDevice, "device", "device", {}},
       {PluginKind::kMethod, "method", "method", {Place::kProcedure}},
@@ -83,6 +83,7 @@ Manifest::ModuleRole readRole(const xml::Element& root) {
   role.snap = root.attribute("snap") != "false";
   role.body_effects = root.attribute("body_effects") != "false";
   role.joints = root.attribute("joints") != "false";
+  role.hits = root.attribute("hits") != "false";
   for (const xml::Element& wanted : root.children("wanted"))
     role.wanted.push_back(xml::splitWords(wanted.attribute("when")));
   return role;
@@ -95,6 +96,7 @@ Manifest read(const xml::Element& root, const std::string& file) {
                     .about = root.attribute("about"),
                     .gives = root.attribute("gives"),
                     .needs_proxy = root.attribute("needs") == "proxy",
+                    .needs_hits = root.attribute("needs") == "hits",
                     .left_out = root.attribute("left_out"),
                     .elements = {},
                     .settings = {},

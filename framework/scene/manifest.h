@@ -42,7 +42,8 @@ struct Manifest {
     bool fingers = true,      ///< the engine supports fingers
         snap = true,          ///< the engine supports snap constraints, which assemblies need
         body_effects = true,  ///< the engine supports body effects
-        joints = true;        ///< the engine supports joints
+        joints = true,        ///< the engine supports joints
+        hits = true;          ///< the engine says which bodies hit each other
     /// Alternatives. Each lists the facts (framework/scene/scene_facts.h) that must hold together. Empty: the module is
     /// needed where one of its elements stands.
     std::vector<std::vector<std::string>> wanted;
@@ -57,6 +58,7 @@ struct Manifest {
   /// (framework/device/device_figure.h); empty: nothing others ask for
   std::string gives;
   bool needs_proxy = false;  ///< a surface effect of renderers with a proxy: needs="proxy"
+  bool needs_hits = false;   ///< it hears bodies that hit each other: needs="hits"
   std::string left_out;  ///< why a scene leaves it out, where its kind does not say; empty: derived from its elements
   std::vector<Element> elements;    ///< elements that it adds
   std::vector<Attribute> settings;  ///< of a device: keys that a rig may set

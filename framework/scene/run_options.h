@@ -36,6 +36,7 @@ struct RunOptions {
   /// The screen is what the window keeps showing between the runs; without bodies and fingertips it is black.
   std::optional<ParticipantScreen> participant{};
   std::string video{};   ///< MP4 path, may be empty
+  std::string sound{};   ///< WAV path of what the scene's `<sound>` elements sound like; may be empty
   std::string flight{};  ///< HDF5 path for the last seconds before a fault, when `record` is empty; may be empty
   /// As `flight`, for a run that drives real hardware in real time.
   std::string hardware_flight{};

@@ -12,6 +12,8 @@
 namespace presa {
 namespace {
 
+enum PlanCode { kHits = 265 };
+
 constexpr double kFastestRealTime = 10000;  // [Hz]
 
 /// "body 'cube'", "the scene"
@@ -50,8 +52,9 @@ void planSurfaceEffects(const Scene& scene, Plan& plan) {
   if (scene.devices.empty()) return;
   for (const PluginElement& effect : surfaceEffectsOf(scene)) {
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == effect.plugin; })) continue;
-    const std::string& body = scene.bodies[static_cast<std::size_t>(effect.body)].name;
-    plan.effects.push_back({effect.plugin, "body '" + body + "' has <" + effect.element + ">"});
+    const auto own = std::ranges::find(scene.plugin_elements, effect.plugin, &PluginElement::plugin);
+    const bool of_scene = own != scene.plugin_elements.end() && own->body == kNoBody && own->material < 0;
+    plan.effects.push_back({effect.plugin, ownerOf(of_scene ? *own : effect, scene) + " has <" + effect.element + ">"});
   }
 }
 
@@ -163,6 +166,13 @@ void checkEngine(const Scene& scene, const Plan& plan, Diagnostics& diagnostics)
       diagnostics.error(234, scene.joints[0].where,
                         "the scene has joints, and " + planned.plugin + " does not support them",
                         "engines that do: " + enginesThat(&Manifest::ModuleRole::joints));
+    for (const PluginElement& element : scene.plugin_elements) {
+      if (role.hits || !findManifest(element.plugin)->needs_hits) continue;
+      diagnostics.error(kHits, element.where,
+                        "<" + element.element + "> hears bodies that hit each other, and " + planned.plugin +
+                            " does not say which do",
+                        "engines that do: " + enginesThat(&Manifest::ModuleRole::hits));
+    }
     if (!role.snap && scene.assembly)
       diagnostics.error(409, where,
                         "the scene has an assembly, and " + planned.plugin + " does not support snap constraints",

@@ -108,12 +108,17 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
     released_.resize(world_->scene.bodies.size(), -1);
   }
   if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
+  if (needsBodyHits(world_->scene)) {
+    hits_.emplace(*this, kBodyHitsPort);
+    hits_->value = BodyHits(BodyHits::kRoom);
+  }
 }
 
 void DynamicsModule::start() {
   attachThread();
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
+  if (hits_) bodies_->listen();
   bodies_->makeRoom(fingers_.sized());
   if (reactions_) bodies_->makeRoom(reactions_->sized());
   if (held_) {
@@ -152,6 +157,15 @@ void DynamicsModule::leaveFingersTo(const HeldBodies& held) noexcept {
   for (const std::int32_t body : reached_) bodies_->setReached(index(body), true);
 }
 
+void DynamicsModule::writeHits() noexcept {
+  const auto add = [&](const BodyHit& hit) {
+    hits_->value.add(hit);
+    return true;
+  };
+  bodies_->hits().read(hits_read_, add);
+  if (held_ && held_->hasValue()) held_->value().hits.read(held_hits_read_, add);
+}
+
 void DynamicsModule::step(const Tick& tick) noexcept {
   setSnapConstraints();
   if (reactions_) bodies_->addReactions(reactions_->value(), tick.period);
@@ -160,6 +174,7 @@ void DynamicsModule::step(const Tick& tick) noexcept {
     leaveFingersTo(held_->value());
   }
   bodies_->step(fingers_.value(), tick.time, tick.period, objects_.value, tick.late);
+  if (hits_) writeHits();
   if (held_) bodies_->writeIslands(objects_.value);
   if (held_ && held_->hasValue()) addCounts(held_->value(), objects_.value);
 }
@@ -176,6 +191,7 @@ std::vector<std::string> DynamicsModule::stages() const {
       stages.push_back("body effect " + name + ", implicit in its own damping and stiffness");
   }
   std::ranges::move(listStages(options_), std::back_inserter(stages));
+  if (hits_) stages.emplace_back("note the bodies that hit each other, for the effects that hear it");
   return stages;
 }
 

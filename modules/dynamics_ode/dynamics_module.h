@@ -6,6 +6,7 @@
 
 #include "framework/core/graph/port.h"
 #include "framework/haptics/body_effects.h"
+#include "framework/haptics/body_hits.h"
 #include "framework/haptics/effect_reactions.h"
 #include "framework/haptics/plugin_host.h"
 #include "framework/session/module_plugin.h"
@@ -32,6 +33,7 @@ class DynamicsModule final : public Module, public PluginHost {
   void setSnapConstraints() noexcept;
   void follow(const HeldBodies& held, const Tick& tick) noexcept;
   void leaveFingersTo(const HeldBodies& held) noexcept;
+  void writeHits() noexcept;
 
   In<ContactExchange> fingers_;
   Out<ObjectState> objects_;
@@ -41,6 +43,8 @@ class DynamicsModule final : public Module, public PluginHost {
   std::vector<double> released_;                         // by body: HeldBody::since when it was taken back
   BoundedList<std::int32_t> reached_;                    // bodies on which fingers act in this step, with `held_`
   std::optional<BodyEffects> body_effects_;              // only if they act on free bodies
+  std::optional<Out<BodyHits>> hits_;                    // only if somebody listens
+  std::uint64_t hits_read_ = 0, held_hits_read_ = 0;     // of this world, of the bodies that are held
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;

@@ -16,6 +16,7 @@
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
 #include "modules/dynamics_ode/finger_joints.h"
+#include "modules/dynamics_ode/hit_finder.h"
 #include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/joints/engine_joints.h"
@@ -130,6 +131,7 @@ struct OdeWorld::Impl {
   std::optional<StepSolver> engine_solvers;
   std::optional<Sweep> sweep;                 // with Presa's own solvers
   std::optional<Sleep> sleep;                 // empty when the scene turns sleeping off
+  std::optional<HitFinder> hits;              // empty unless somebody listens
   std::optional<OwedImpulses> owed;           // empty unless the options ask for it
   std::optional<SnapDrive> snap_drive_;       // empty without an assembly
   std::optional<JointSet> links;              // the joints of the scene; empty without
@@ -219,6 +221,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   if (owed) owed->push(bodies);
   if (body_effects) pushBodyEffects(time, h);
   fingers.read(exchange, time, h, bodies);
+  if (hits) hits->begin(contacts, bodies);
   if (own_solvers) {
     if (links) links->read(bodies);
     own_solvers->solve(contacts, fingers, snap_drive_ ? &snap_drive_->motors() : nullptr, links ? &*links : nullptr,
@@ -226,6 +229,7 @@ void OdeWorld::Impl::substep(const ContactExchange& exchange, double time, doubl
   } else if (engine_solvers->solve(contacts, fingers, islands, layersThatMatter(substeps), h, substeps)) {
     ++fallback_steps;
   }
+  if (hits) hits->end(contacts, bodies, time, h);
   impulses.add(fingers, h, substeps);
   if (owed) owed->notePredicted(fingers, h);
   bodies.driftRotations(h);
@@ -366,6 +370,13 @@ void OdeWorld::makeRoom(const ContactExchange& fingers) {
 void OdeWorld::makeRoom(const EffectReactions& reactions) { impl_->effects.makeRoom(reactions.bodies.size()); }
 
 void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
+
+void OdeWorld::listen() { impl_->hits.emplace(impl_->bodies.contactRoom()); }
+
+const BodyHits& OdeWorld::hits() const noexcept {
+  static const BodyHits kNone;
+  return impl_->hits ? impl_->hits->hits() : kNone;
+}
 
 void OdeWorld::addReactions(const EffectReactions& reactions, double period) noexcept {
   if (!impl_->failed) impl_->effects.read(reactions, period, impl_->bodies, impl_->sleep ? &*impl_->sleep : nullptr);

@@ -7,6 +7,7 @@
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/object_state.h"
 #include "framework/haptics/body_effects.h"
+#include "framework/haptics/body_hits.h"
 #include "framework/haptics/effect_reactions.h"
 #include "framework/scene/world.h"
 #include "modules/dynamics_ode/body_contact.h"
@@ -60,6 +61,10 @@ class OdeWorld {
   void addReactions(const EffectReactions& reactions, double period) noexcept;
   /// Applies body effects from the next step on; they must outlive this. Never called: none.
   void use(BodyEffects& effects);
+  /// Looks for hits between bodies from the next step on. Never called: hits() stays empty.
+  void listen();
+  /// Hits between bodies so far.
+  const BodyHits& hits() const noexcept;
   /// Writes the current poses as a state valid from `time` on [s].
   void write(double time, ObjectState& out) noexcept;
   /// Writes the islands of the last step to the bodies; the other functions leave them out.

@@ -31,6 +31,7 @@ HapticEffects effectsOf(const World& world, const RunOptions& options) {
       (effects.proxy && any_touchable([&](const Body& body) { return hasFriction(scene, body.material); }));
   effects.commanded = options.bus_commands && !openSurfaces(scene).empty();
   effects.surface_effects = !surfaceEffectsOf(scene).empty();
+  effects.hits = effects.surface_effects && needsBodyHits(scene);
   effects.damping = any_touchable([&](const Body& body) { return scene.materialOf(body).damping > 0; });
   effects.torsion =
       effects.friction && any_touchable([&](const Body& body) { return scene.materialOf(body).torsional_radius > 0; });

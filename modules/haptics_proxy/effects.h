@@ -18,6 +18,7 @@ struct HapticEffects {
   bool surface_change = false;   ///< friction that changes during the run
   bool commanded = false;        ///< surface parameters open to commands
   bool surface_effects = false;  ///< force shading and those of plug-ins
+  bool hits = false;             ///< a surface effect hears bodies that hit each other
   bool damping = false;
   bool torsion = false;  ///< torsional friction of oriented tools
   bool held = false;     ///< the haptic thread moves what fingers hold

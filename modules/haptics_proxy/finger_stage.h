@@ -8,6 +8,7 @@
 #include "framework/core/graph/port.h"
 #include "framework/core/state/contact_exchange.h"
 #include "framework/core/state/device_state.h"
+#include "framework/haptics/body_hits.h"
 #include "framework/haptics/renderer.h"
 #include "framework/haptics/touchables.h"
 #include "framework/scene/surface_change.h"
@@ -91,8 +92,9 @@ std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, con
 /// `change` must outlive the stage, too.
 std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
                                                     const In<SurfaceChange>& change);
-/// `world` must outlive the stage.
-std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces);
+/// `world` and `hits` must outlive the stage; null: no effect hears hits.
+std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces,
+                                           const In<BodyHits>* hits);
 /// Writes contact state and spring force, and counts pop-through, lost coverage and leaps.
 std::unique_ptr<FingerStage> makeSpring(const SurfacesInForce& surfaces);
 /// The same for scenes with surface effects, which may leave less than the material's stiffness.

@@ -45,7 +45,8 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
     finger_stages_.push_back(std::move(friction));
   }
   if (effects.surface_effects) {
-    auto surfaces = makeSurfaces(*world_, in_force);
+    if (effects.hits) hits_.emplace(*this, kBodyHitsPort, In<BodyHits>::Optional{});
+    auto surfaces = makeSurfaces(*world_, in_force, hits_ ? &*hits_ : nullptr);
     surface_effects_ = surfaces.get();
     finger_stages_.push_back(std::move(surfaces));
   }

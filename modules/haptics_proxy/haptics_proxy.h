@@ -73,6 +73,7 @@ class HapticsProxy final : public Module, public PluginHost {
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};
   In<ObjectState> objects_;
   std::optional<In<SurfaceChange>> surface_change_;      // only if friction can change
+  std::optional<In<BodyHits>> hits_;                     // only if a surface effect hears them
   std::vector<std::unique_ptr<Commanded>> commanded_;    // none or one
   std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};

@@ -8,13 +8,22 @@ namespace {
 
 class Surfaces final : public SurfaceStage {
  public:
-  Surfaces(const World& world, const SurfacesInForce& surfaces) : surfaces_(surfaces), effects_(world) {}
+  Surfaces(const World& world, const SurfacesInForce& surfaces, const In<BodyHits>* hits)
+      : surfaces_(surfaces), hits_(hits), effects_(world) {}
 
   void apply(FingerTick& tick) noexcept override {
     ProxyContact& contact = tick.contact;
     if (!contact.state.touching || !effects_.on(contact.body)) return;
-    const SurfaceInput input{tick.index, tick.time, tick.period,     tick.r,           tick.g,
-                             contact,    tick.X_WA, tick.touchables, *tick.finger.near};
+    const SurfaceInput input{tick.index,
+                             tick.time,
+                             tick.period,
+                             tick.r,
+                             tick.g,
+                             contact,
+                             tick.X_WA,
+                             tick.touchables,
+                             *tick.finger.near,
+                             hits_ == nullptr ? nullptr : &hits_->value()};
     if (!effects_.act(input, surfaces_.of(contact.body).stiffness, contact, tick.softness)) tick.broken = true;
   }
   std::string what() const override {
@@ -26,13 +35,15 @@ class Surfaces final : public SurfaceStage {
 
  private:
   const SurfacesInForce surfaces_;
+  const In<BodyHits>* const hits_;
   SurfaceEffects effects_;
 };
 
 }  // namespace
 
-std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces) {
-  return std::make_unique<Surfaces>(world, surfaces);
+std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces,
+                                           const In<BodyHits>* hits) {
+  return std::make_unique<Surfaces>(world, surfaces, hits);
 }
 
 }  // namespace presa

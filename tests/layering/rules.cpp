@@ -54,6 +54,7 @@ const std::vector<Arrows>& arrows() {
       {"framework/core/", {}},
       {"framework/plugin/", {"framework/core/"}},
       {"framework/input/", {"framework/core/"}},
+      {"framework/sound/", {"framework/core/", "framework/input/"}},
       {"framework/geometry/", {"framework/core/", "framework/plugin/", "framework/input/"}},
       {"framework/grasp/", {"framework/core/", "framework/plugin/"}},
       {"framework/scene/", {"framework/core/", "framework/plugin/", "framework/input/", "framework/geometry/"}},

@@ -37,6 +37,7 @@ struct RenderedBody::Parts {
   Surroundings near;
   SurfaceEffects surface;
   BoundedList<RenderedContact> contacts{renderer->maxOwnContacts()};
+  BodyHits hits{BodyHits::kRoom};
   ProxyState proxy;
   Vec3 last_p_WH = Vec3::Zero();
   bool alive = false;
@@ -47,6 +48,7 @@ RenderedBody::RenderedBody(const std::string& haptics, const std::string& shape,
                            const std::string& material_effects)
     : parts_(std::make_unique<Parts>(haptics, shape, effects, material_effects)) {}
 RenderedBody::~RenderedBody() = default;
+void RenderedBody::hear(const BodyHit& hit) noexcept { parts_->hits.add(hit); }
 
 Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   Parts& p = *parts_;
@@ -66,8 +68,8 @@ Vec3 RenderedBody::force(const Vec3& p_WH) noexcept {
   if (!contact.state.touching) return Vec3::Zero();
   double softness = 1;
   if (p.surface.on(contact.body) &&
-      !p.surface.act({0, p.time, kPeriod, kRadius, p_WH, contact, X_WA, p.touchables, p.near}, kStiffness, contact,
-                     softness))
+      !p.surface.act({0, p.time, kPeriod, kRadius, p_WH, contact, X_WA, p.touchables, p.near, &p.hits}, kStiffness,
+                     contact, softness))
     return broken;
   return softness * kStiffness * (contact.depth * contact.nhat + contact.tangential_displacement);
 }

@@ -36,8 +36,8 @@ void leaveOpen(RunArguments& arguments) {
 /// What only the first run has: its files, and its words at the terminal.
 void forgetFiles(RunArguments& arguments) {
   RunOptions& options = arguments.options;
-  for (std::string* file :
-       {&options.record, &options.flight, &options.screenshot, &options.video, &arguments.summary, &arguments.report})
+  for (std::string* file : {&options.record, &options.flight, &options.screenshot, &options.video, &options.sound,
+                            &arguments.summary, &arguments.report})
     file->clear();
   options.screenshot_time = RunOptions{}.screenshot_time;
   arguments.quiet = true;

@@ -26,6 +26,7 @@ void checkPlaces(const RunArguments& arguments, Diagnostics& diagnostics) {
                                      {"--flight", options.flight},
                                      {"--screenshot", options.screenshot},
                                      {"--video", options.video},
+                                     {"--sound", options.sound},
                                      {"--summary", arguments.summary},
                                      {"--report", arguments.report}}) {
     const std::string trouble = file.empty() ? "" : placeTrouble(file);
@@ -45,10 +46,14 @@ void checkOutputs(const RunArguments& arguments, Diagnostics& diagnostics) {
 }
 
 /// Options that say nothing for this run, which would be ignored in silence.
-void checkOptions(const RunArguments& arguments, const RunOptions& options, Diagnostics& diagnostics) {
+void checkOptions(const RunArguments& arguments, const Loaded& loaded, Diagnostics& diagnostics) {
+  const RunOptions& options = loaded.options;
   if (arguments.speed > 0 && options.realtime)
     diagnostics.error(123, {"--speed", 0, 0}, "only a run in virtual time has a speed, this one keeps to the clock",
                       "add --lockstep");
+  if (!options.sound.empty() && !loaded.plan.has("sound"))
+    diagnostics.error(123, {"--sound", 0, 0}, "nothing is heard in this scene, which has no <sound>",
+                      "give it one, as in scenes/sounds.xml, or leave out --sound");
   if (options.screenshot_time < 0) return;
   std::array<char, 160> text;
   if (options.screenshot.empty()) {
@@ -141,6 +146,8 @@ void addRunOptions(Command command, RunArguments& arguments) {
       .nonNegative();
   command.option("--video", arguments.options.video,
                  "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
+  command.option("--sound", arguments.options.sound,
+                 "WAV of what a scene with <sound> sounds like, from the start of the run");
   command
       .option(
           "--speed", arguments.speed,
@@ -176,7 +183,7 @@ RunEnd runScene(RunArguments arguments, SceneOffer offer) {
   Loaded loaded = loadWith(arguments, diagnostics);
   if (!arguments.realtime && modelsOnly(loaded)) arguments.options.realtime = loaded.options.realtime = false;
   if (!diagnostics.hasErrors()) checkOutputs(arguments, diagnostics);
-  if (!diagnostics.hasErrors()) checkOptions(arguments, loaded.options, diagnostics);
+  if (!diagnostics.hasErrors()) checkOptions(arguments, loaded, diagnostics);
   if (!diagnostics.hasErrors()) checkPlaces(arguments, diagnostics);
   checkBusCommands(arguments.options.bus_commands, loaded.options, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);

@@ -1,6 +1,5 @@
 #pragma once
-#include <string>
-#include <vector>
+#include "framework/sound/strike.h"
 
 namespace presa::temple {
 
@@ -11,23 +10,16 @@ struct Hit {
   double length = 0;  ///< of the stone at the size of the building: cube root of its volume [m]
 };
 
-inline constexpr int kSampleRate = 44100;  ///< [Hz]
+inline constexpr double kSpeedOfSound = 4000;  ///< in marble, 3800 to 6000 by its grain and damp [m/s]
+inline constexpr double kStoneDecay = 0.030;   ///< of the lowest sinusoid to 1/e [s]
 
-/// The sound of a block of marble: sinusoids that decay, the lowest at c/2L as of a bar that is free at both ends, with
-/// the speed of sound c in marble; louder with the speed, up to 1 m/s. Amplitude at most 1 in all.
-struct StoneSound {
-  static constexpr double kSpeedOfSound = 4000;  ///< in marble, 3800 to 6000 by its grain and damp [m/s]
-  static constexpr double kDecay = 0.030;        ///< of the lowest sinusoid to 1/e [s]
-  static constexpr double kLasts = 0.3;          ///< [s]
-  static double lowest(const Hit& hit) { return kSpeedOfSound / (2 * hit.length); }
-  /// Adds it to samples that begin at `begin` on the visit's clock [s]; what lies outside of them is left out.
-  static void add(const Hit& hit, double begin, std::vector<float>& samples);
-};
-
-/// What a visit sounds like, from its start to its last hit: a WAV file of one channel with 16 bits. Hits after half an
-/// hour are left out.
-std::string wavOf(const std::vector<Hit>& hits);
-/// Samples in the range of 16 bits; louder ones are cut.
-std::string pcmOf(const std::vector<float>& samples);
+/// The sound of a block of marble: the lowest frequency is c/2L as of a bar that is free at both ends, with the speed of
+/// sound c in marble; louder with the speed, up to 1 m/s.
+inline sound::Strike strikeOf(const Hit& hit) {
+  return {.time = hit.time,
+          .frequency = kSpeedOfSound / (2 * hit.length),
+          .decay = kStoneDecay,
+          .loudness = hit.speed < 1 ? hit.speed : 1};
+}
 
 }  // namespace presa::temple

@@ -115,6 +115,7 @@ class HapticRateModule final : public Module, public PluginHost {
   std::vector<Velocity> at_end_;      // and when it ends
   BoundedList<Entry> entries_;
   std::vector<Group> groups_;  // by least entry
+  bool listens_ = false;       // somebody hears hits between bodies
   std::uint64_t noted_ = 0;    // version of the object state that at_end_ is of
   std::uint64_t copied_ = 0;   // version of the object state that shown_objects_ was copied from
   double now_ = 0;             // [s]

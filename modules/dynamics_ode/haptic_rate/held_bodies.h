@@ -3,6 +3,7 @@
 
 #include "framework/core/exchange/bounded_list.h"
 #include "framework/core/state/object_state.h"
+#include "framework/haptics/body_hits.h"
 
 namespace presa::ode {
 
@@ -38,9 +39,10 @@ struct HeldBodies {
   std::uint64_t too_many = 0;  ///< since the start: how often a group was too large: not taken over, or given back
   /// What the steps of these bodies counted: impulses of fingers, contacts, energy, faults. Holds no bodies.
   ObjectState counted;
+  BodyHits hits;  ///< of these bodies; without room in scenes where nobody listens
 
   /// Heap memory that it owns [bytes] (SizedAtLoad).
-  std::size_t roomBytes() const noexcept { return bodies.roomBytes() + refused.roomBytes() + counted.roomBytes(); }
+  std::size_t roomBytes() const noexcept { return bodies.roomBytes() + refused.roomBytes() + counted.roomBytes() + hits.roomBytes(); }
 };
 
 inline constexpr const char* kHeldBodiesPort = "held_bodies";

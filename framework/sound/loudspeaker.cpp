@@ -1,4 +1,4 @@
-#include "apps/temple/sound/loudspeaker.h"
+#include "framework/sound/loudspeaker.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -19,10 +19,9 @@
 
 extern char** environ;
 
-namespace presa::temple {
+namespace presa::sound {
 namespace {
 
-constexpr const char* kPlayer = "aplay";
 constexpr int kChunk = kSampleRate / 100;
 constexpr std::size_t kMostPending = 16 * kChunk;  // [byte]
 constexpr double kAhead = 0.04;                    // samples are written this long before they are heard [s]
@@ -36,12 +35,6 @@ bool Loudspeaker::available() {
     if (name.starts_with("pcm") && name.ends_with('p')) return input::isOnPath(kPlayer);  // p: plays
   }
   return false;
-}
-
-void Loudspeaker::check(Diagnostics& diagnostics) {
-  if (input::isOnPath(kPlayer)) return;
-  diagnostics.error(963, {"--sound", 0, 0}, "sounds are played by aplay, which is not on the PATH",
-                    "install it (Debian: alsa-utils), or leave out --sound");
 }
 
 Loudspeaker::Loudspeaker() {
@@ -75,30 +68,30 @@ Loudspeaker::~Loudspeaker() {
   }
 }
 
-void Loudspeaker::play(const Hit& hit) {
+void Loudspeaker::play(const Strike& strike) {
   const std::lock_guard lock(mutex_);
-  waiting_.push_back(hit);
+  waiting_.push_back(strike);
 }
 
 void Loudspeaker::write() {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  std::vector<Hit> sounding;
+  std::vector<Strike> sounding;
   std::string pending;
   for (std::int64_t chunk = 0; !ends_; ++chunk) {
     const double begin = static_cast<double>(chunk * kChunk) / kSampleRate;
     std::this_thread::sleep_until(start + std::chrono::duration<double>(begin - kAhead));
     {
       const std::lock_guard lock(mutex_);
-      for (Hit& hit : waiting_) {
-        hit.time = begin;
-        sounding.push_back(hit);
+      for (Strike& strike : waiting_) {
+        strike.time = begin;
+        sounding.push_back(strike);
       }
       waiting_.clear();
     }
-    std::erase_if(sounding, [&](const Hit& hit) { return begin > hit.time + StoneSound::kLasts; });
+    std::erase_if(sounding, [&](const Strike& strike) { return begin > strike.time + strike.lasts(); });
     std::vector<float> samples(kChunk);
-    for (const Hit& hit : sounding) StoneSound::add(hit, begin, samples);
+    for (const Strike& strike : sounding) strike.addTo(samples, begin);
     pending += pcmOf(samples);
     const ssize_t sent = send(stream_, pending.data(), pending.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && errno != EAGAIN && errno != EINTR) return;  // the player has gone
@@ -107,4 +100,4 @@ void Loudspeaker::write() {
   }
 }
 
-}  // namespace presa::temple
+}  // namespace presa::sound

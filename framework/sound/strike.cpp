@@ -1,4 +1,4 @@
-#include "apps/temple/sound/stone_sound.h"
+#include "framework/sound/strike.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-namespace presa::temple {
+namespace presa::sound {
 namespace {
 
 constexpr double kLongest = 1800;                    // of a WAV file [s]
@@ -20,19 +20,17 @@ void appendNumber(std::string& text, std::uint32_t value, int bytes) {
 
 }  // namespace
 
-void StoneSound::add(const Hit& hit, double begin, std::vector<float>& samples) {
-  const double loud = std::min(1.0, hit.speed);
-  const auto first = static_cast<std::ptrdiff_t>(std::ceil((hit.time - begin) * kSampleRate));
+void Strike::addTo(std::vector<float>& samples, double begin) const {
+  const auto first = static_cast<std::ptrdiff_t>(std::ceil((time - begin) * kSampleRate));
   const auto last =
-      std::min(static_cast<std::ptrdiff_t>(samples.size()), first + static_cast<std::ptrdiff_t>(kLasts * kSampleRate));
+      std::min(static_cast<std::ptrdiff_t>(samples.size()), first + static_cast<std::ptrdiff_t>(lasts() * kSampleRate));
   for (std::size_t mode = 0; mode < kRatios.size(); ++mode) {
-    const double frequency = kRatios[mode] * lowest(hit);
-    if (frequency > kHighest) break;
-    const double turn = 2 * std::numbers::pi * frequency, decay = kRatios[mode] / kDecay;
+    if (kRatios[mode] * frequency > kHighest) break;
+    const double turn = 2 * std::numbers::pi * kRatios[mode] * frequency, rate = kRatios[mode] / decay;
     for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, first); i < last; ++i) {
-      const double t = begin + static_cast<double>(i) / kSampleRate - hit.time;
+      const double t = begin + static_cast<double>(i) / kSampleRate - time;
       samples[static_cast<std::size_t>(i)] +=
-          static_cast<float>(loud * kShares[mode] * std::exp(-decay * t) * std::sin(turn * t));
+          static_cast<float>(loudness * kShares[mode] * std::exp(-rate * t) * std::sin(turn * t));
     }
   }
 }
@@ -45,11 +43,11 @@ std::string pcmOf(const std::vector<float>& samples) {
   return text;
 }
 
-std::string wavOf(const std::vector<Hit>& hits) {
+std::string wavOf(const std::vector<Strike>& strikes) {
   double end = 0;
-  for (const Hit& hit : hits) end = std::max(end, std::min(kLongest, hit.time + StoneSound::kLasts));
+  for (const Strike& strike : strikes) end = std::max(end, std::min(kLongest, strike.time + strike.lasts()));
   std::vector<float> samples(static_cast<std::size_t>(end * kSampleRate));
-  for (const Hit& hit : hits) StoneSound::add(hit, 0, samples);
+  for (const Strike& strike : strikes) strike.addTo(samples, 0);
   const std::string pcm = pcmOf(samples);
   const auto bytes = static_cast<std::uint32_t>(pcm.size());
   std::string text = "RIFF";
@@ -67,4 +65,4 @@ std::string wavOf(const std::vector<Hit>& hits) {
   return text + pcm;
 }
 
-}  // namespace presa::temple
+}  // namespace presa::sound

@@ -1,0 +1,121 @@
+// The ring of bodies that hit each other, against its formula; the shipped scene, with both couplings; bad elements.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/apps/presa/support.h"
+#include "tests/support/alloc_lock_guard.h"
+#include "tests/support/lockstep_run.h"
+#include "tests/support/rendered_body.h"
+
+namespace presa {
+namespace {
+
+constexpr double kPeriod = 1e-3, kRest = 0.0565;  // of the fingertip's centre, 1.5 mm deep in the box [m]
+constexpr double kFrequency = 120, kDecay = 0.02, kGain = 3, kLargest = 1.2;
+constexpr double kW = 2 * std::numbers::pi * kFrequency;
+
+test::RenderedBody box(const std::string& b = "any") {
+  return {R"(<haptics renderer="god_object"/><knock a="any" b=")" + b +
+              R"(" frequency="120" decay="0.02" gain="3" max_force="1.2"/>)",
+          R"(<box size="0.1 0.1 0.1"/>)"};
+}
+
+BodyHit hitAt(double time, double speed) { return {.time = time, .A = 0, .B = 0, .speed = speed}; }
+
+double formula(double speed, double t) { return t < 0 ? 0 : kGain * speed * std::exp(-t / kDecay) * std::sin(kW * t); }
+
+/// Force of a fingertip at rest over the spring's own, in 200 ticks.
+std::vector<double> ringOf(test::RenderedBody& body) {
+  std::vector<double> ring;
+  for (int i = 0; i < 200; ++i) ring.push_back(body.force({0, 0, kRest}).z() - 1.5);
+  return ring;
+}
+
+void arrive(test::RenderedBody& body) {
+  body.force({0, 0, 0.06});
+  body.force({0, 0, kRest});
+}
+
+// The hits are ahead of the haptic thread, or a part of a tick behind it; their rings add up.
+TEST(Knock, RingsAsItsFormulaSays) {
+  test::RenderedBody body = box();
+  arrive(body);
+  double time = 2 * kPeriod;
+  body.hear(hitAt(time + 0.0042, 0.2));
+  body.hear(hitAt(time + 0.0513, 0.1));
+  for (const double f : ringOf(body)) {
+    time += kPeriod;
+    EXPECT_NEAR(f, formula(0.2, time - 2 * kPeriod - 0.0042) + formula(0.1, time - 2 * kPeriod - 0.0513), 1e-9) << time;
+  }
+}
+
+TEST(Knock, RingsNoLouderThanItsBound) {
+  test::RenderedBody body = box();
+  arrive(body);
+  double largest = 0;
+  for (int i = 0; i < 10; ++i) body.hear(hitAt(0.003 + 0.04 * i, 5));
+  for (const double f : ringOf(body)) largest = std::max(largest, std::abs(f));
+  EXPECT_LE(largest, kLargest);
+  EXPECT_GT(largest, 0.8 * kLargest);
+}
+
+TEST(Knock, OfBeforeAFingertipArrivedIsNotFelt) {
+  test::RenderedBody body = box();
+  body.hear(hitAt(0, 1));
+  arrive(body);
+  for (const double f : ringOf(body)) EXPECT_NEAR(f, 0, 1e-9);
+}
+
+TEST(Knock, NeitherAllocatesNorLocks) {
+  test::RenderedBody body = box();
+  arrive(body);
+  RealTimeGuard guard;
+  for (int i = 0; i < 60; ++i) {
+    body.hear(hitAt(0.003 + 0.04 * i, 0.5));
+    body.force({0, 0, kRest});
+  }
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+}
+
+TEST(Knock, OfAMaterialThatTheSceneDoesNotHaveIsRefused) {
+  try {
+    box("chalk");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().text().find("the scene has no material 'chalk'; it has any"), std::string::npos)
+        << error.diagnostics().text();
+  }
+}
+
+// Stone is felt and cork hardly; without the elements the dynamics looks for no hit. Either thread may move what is held.
+TEST(SceneWithKnocks, RingsByThePairOfMaterials) {
+  const std::string scene = test::source("config/scenes/knocks.xml");
+  for (const std::string coupling : {"soft", "haptic_rate"}) {
+    const std::string set = "dynamics/coupling=" + coupling;
+    const test::LockstepRun run(scene, {set}), faint(scene, {set, "knock[1]/gain=0.1", "knock[2]/gain=0.1"});
+    EXPECT_TRUE(run.faults().empty()) << run.faults().front();
+    EXPECT_GT(run.maxNormalForce("index"), faint.maxNormalForce("index") + 0.5) << coupling;
+    EXPECT_NEAR(run.rise("cube"), faint.rise("cube"), 0.003) << coupling;
+  }
+}
+
+TEST(SceneWithKnocks, SaysWhatItLoadsAndWhichEngineCannot) {
+  const std::string scene = test::source("config/scenes/knocks.xml");
+  const test::Outcome explained = test::presa("explain " + scene);
+  EXPECT_NE(explained.out.find("knock: steel on stone rings at 220 Hz"), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("the scene has <knock>"), std::string::npos) << explained.out;
+  EXPECT_NE(explained.out.find("note the bodies that hit each other"), std::string::npos) << explained.out;
+  const test::Outcome without = test::presa("explain " + test::source("config/scenes/cube.xml"));
+  EXPECT_EQ(without.out.find("note the bodies that hit"), std::string::npos) << without.out;
+  const test::Outcome bullet = test::presa("run " + scene + " --lockstep --set dynamics/engine=bullet");
+  EXPECT_EQ(bullet.status, 2);
+  EXPECT_NE(bullet.err.find("error[E265]"), std::string::npos) << bullet.err;
+  EXPECT_NE(bullet.err.find("engines that do: ode"), std::string::npos) << bullet.err;
+}
+
+}  // namespace
+}  // namespace presa
