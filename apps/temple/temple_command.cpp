@@ -470,7 +470,7 @@ void addTemple(Command app, int& status) {
               "has no fingers)")
       .existingFile();
   command.option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
-  command.option("--video", a->video, "MP4 of the visit through ffmpeg, 30 pictures for each simulated second");
+  command.option("--video", a->video, "MP4 of the visit through ffmpeg");
   addPictureOptions(command, a->asked, a->show);
   command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every SECONDS simulated seconds")
       .values(2, 2);

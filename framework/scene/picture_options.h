@@ -51,6 +51,7 @@ struct PictureOptions {
   std::optional<std::variant<ViewSide, CameraPlace>> camera{};  ///< none: the view's own
   int width = 1280,                                             ///< of a picture, and of a window when it opens [pixel]
       height = 720;                                             ///< the same [pixel]
+  double video_rate = 30;                                       ///< pictures of a video in a simulated second
   Hud hud = Hud::kFull;                                         ///< text over the picture
   bool legend = false;                                          ///< explains arrows, cones and colours
   Background background = Background::kScene;                   ///< behind bodies and fingers

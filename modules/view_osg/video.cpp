@@ -40,7 +40,7 @@ bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
 
 }  // namespace
 
-Video::Video(const std::string& file) : file_(file) {
+Video::Video(const std::string& file, double rate) : file_(file), rate_(rate) {
   if (!input::isOnPath("ffmpeg"))
     refuse(705, "--video", "a video is made by ffmpeg, which is not on the PATH", "install it (Debian: ffmpeg)");
 }
@@ -54,8 +54,7 @@ void Video::start(int width, int height) {
     trouble_ = std::string("no pipe to ffmpeg: ") + std::strerror(errno);
     return;
   }
-  const std::string size = std::to_string(width) + "x" + std::to_string(height),
-                    rate = std::to_string(std::lround(kRate));
+  const std::string size = std::to_string(width) + "x" + std::to_string(height), rate = std::to_string(rate_);
   // OSG's rows start at the bottom; H.264 with chroma subsampling requires even sizes
   std::array<const char*, 27> words{"ffmpeg",      "-y",         "-loglevel", "error",
                                     "-f",          "rawvideo",   "-pix_fmt",  "rgb24",

@@ -7,15 +7,13 @@
 
 namespace presa::view {
 
-/// A video of a run, encoded by ffmpeg through a pipe, whole up to its last frame however the program ends. 30 frames per simulated second at any speed of the machine; a
-/// missing frame repeats the previous one.
+/// A video of a run, encoded by ffmpeg through a pipe, whole up to its last frame however the program ends. So many frames per
+/// simulated second at any speed of the machine; a missing frame repeats the previous one.
 /// Thread: the view's; waits for ffmpeg.
 class Video {
  public:
-  static constexpr double kRate = 30;  ///< [Hz]
-
-  /// Throws InputError: E705 there is no ffmpeg.
-  explicit Video(const std::string& file);
+  /// `rate`: frames per simulated second. Throws InputError: E705 there is no ffmpeg.
+  Video(const std::string& file, double rate);
   ~Video();
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
@@ -28,11 +26,12 @@ class Video {
   std::string finish();
 
  private:
-  static std::uint64_t wanted(double time) { return static_cast<std::uint64_t>(time * kRate) + 1; }
+  std::uint64_t wanted(double time) const { return static_cast<std::uint64_t>(time * rate_) + 1; }
   void start(int width, int height);
   void write(const osg::Image& picture);
 
   std::string file_, trouble_;
+  double rate_;
   pid_t process_ = -1;
   int pipe_ = -1;
   int width_ = 0, height_ = 0;

@@ -31,7 +31,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
   if (!world_->rig.frames.empty()) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
-  if (!options_.video.empty()) video_.emplace(options_.video);
+  if (!options_.video.empty()) video_.emplace(options_.video, options_.picture.video_rate);
   const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
     neighbourhoods_.emplace(*this, "contact_patches", In<FingerNeighbourhoods>::Optional{});

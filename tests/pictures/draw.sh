@@ -15,7 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
-    scene_pages) size=1770,2500 ;;      # 56 pages, 6 beside each other
+    scene_pages) size=1770,2750 ;;      # 66 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
@@ -40,6 +40,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     incline) args+=(--screenshot-at 2) ;; # the ice has slid, the felt has not
     magnet) args+=(--screenshot-at 1.7) ;;
     moving_wall) args+=(--screenshot-at 0.25) ;;
+    knocks) args+=(--screenshot-at 2.92) ;; # on the stone
     pile) args+=(--screenshot-at 3.4) ;;
     plane | stiffness_pair) args+=(--screenshot-at 4.5) ;;
     rate_*) args+=(--screenshot-at 1.6) ;;
@@ -47,6 +48,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     thin_plate) args+=(--screenshot-at 6) ;;
     two_hands | wall) args+=(--screenshot-at 4.2) ;;
     updraught) args+=(--screenshot-at 2.2) ;;
+    sounds) args+=(--screenshot-at 2.9) ;; # the second block lies on the floor
     sinking) args+=(--screenshot-at 1 --camera "0.2,-0.25,0.1:0.2,0,-0.005") ;; # the ball in honey: the other falls 20 m
   esac
   mkdir -p "$out/scenes"

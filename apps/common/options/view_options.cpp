@@ -25,8 +25,14 @@ void addPictureOptions(Command command, PictureArguments& asked, std::vector<std
           "its own")
       .kind("EYE:TARGET");
   command
-      .option("--picture-size", asked.size, "pixels of a picture, a video, or the window at first (default: 1280x720)")
+      .option("--picture-size,--video-size", asked.size,
+              "pixels of a picture, a video, or the window at first (default: 1280x720)")
       .kind("WxH");
+  command
+      .option("--video-rate", asked.video_rate,
+              "pictures of a video for each simulated second, 1 to 240; above the scene's view rate pictures repeat")
+      .within(1, 240)
+      .showDefault();
   command
       .option("--hud", asked.hud,
               "figures over the scene: off, minimal (scene, time, scale bar) or full; what other options ask for stays")
@@ -57,6 +63,9 @@ PictureOptions pictureOf(const PictureArguments& asked, const RunOptions& option
   if (!asked.size.empty()) parsePictureSize(asked.size, picture, diagnostics);
   if (asked.hud != "full") picture.hud = asked.hud == "off" ? PictureOptions::Hud::kOff : PictureOptions::Hud::kMinimal;
   picture.legend = asked.legend;
+  picture.video_rate = asked.video_rate;
+  if (asked.video_rate != PictureOptions{}.video_rate && options.video.empty())
+    diagnostics.error(123, {"--video-rate", 0, 0}, "says nothing without a video", "add --video FILE.mp4");
   if (asked.light == "evening") picture.light = PictureOptions::Light::kEvening;
   if (asked.background == "scene") return picture;
   const bool transparent = asked.background == "transparent";

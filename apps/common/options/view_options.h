@@ -14,10 +14,11 @@ RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn);
 /// What the user asks of a picture, as typed.
 struct PictureArguments {
   std::string camera, size, hud = "full", background = "scene", light = "noon";
+  double video_rate = PictureOptions{}.video_rate;
   bool legend = false;
 };
 
-/// Adds the options of everything that draws: --camera, --picture-size, --hud, --legend, --background, --light, and --show
+/// Adds the options of everything that draws: --camera, --picture-size, --video-rate, --hud, --legend, --background, --light, and --show
 /// PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
 void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show);
 

@@ -28,11 +28,12 @@ struct GalleryArguments {
 /// The first option given that says something about a run.
 std::string optionOfARun(const Command& command) {
   for (const char* option :
-       {"--mouse",   "--rig",    "--lockstep", "--realtime",     "--for",    "--allow-no-rt",  "--seed",
-        "--set",     "--record", "--flight",   "--overwrite",    "--view",   "--screenshot",   "--screenshot-at",
-        "--video",   "--speed",  "--camera",   "--picture-size", "--hud",    "--legend",       "--background",
-        "--light",   "--show",   "--bus",      "--bus-keys",     "--domain", "--bus-commands", "--guide",
-        "--summary", "--report", "--plug-ins", "--quiet"})
+       {"--mouse",      "--rig",           "--lockstep", "--realtime",   "--for",          "--allow-no-rt",
+        "--seed",       "--set",           "--record",   "--flight",     "--overwrite",    "--view",
+        "--screenshot", "--screenshot-at", "--video",    "--speed",      "--camera",       "--picture-size",
+        "--video-rate", "--hud",           "--legend",   "--background", "--light",        "--sound",
+        "--show",       "--bus",           "--bus-keys", "--domain",     "--bus-commands", "--guide",
+        "--summary",    "--report",        "--plug-ins", "--quiet"})
     if (command.given(option)) return option;
   return {};
 }

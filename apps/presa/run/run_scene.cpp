@@ -145,7 +145,7 @@ void addRunOptions(Command command, RunArguments& arguments) {
   command.option("--screenshot-at", arguments.options.screenshot_time, "simulated time of the screenshot [s]")
       .nonNegative();
   command.option("--video", arguments.options.video,
-                 "MP4 of the run through ffmpeg, 30 pictures for each simulated second");
+                 "MP4 of the run through ffmpeg");
   command.option("--sound", arguments.options.sound,
                  "WAV of what a scene with <sound> sounds like, from the start of the run");
   command

@@ -104,7 +104,7 @@ xdotool key Escape; wait $run; echo $? > status
 }
 
 /// Records a video with `ffmpeg` (the text of a script) in place of the real ffmpeg, or with none at all.
-test::Outcome filmWith(const std::string& ffmpeg, const std::string& file) {
+test::Outcome filmWith(const std::string& ffmpeg, const std::string& file, const std::string& more = {}) {
   const std::string folder = test::scratch("path");
   std::filesystem::create_directories(folder);
   if (!ffmpeg.empty()) {
@@ -113,7 +113,7 @@ test::Outcome filmWith(const std::string& ffmpeg, const std::string& file) {
   }
   const test::Outcome outcome = test::shell("PATH=" + folder + " " + PRESA_BINARY_DIR + "/bin/presa run " +
                                             test::source("config/scenes/cube.xml") +
-                                            " --lockstep --for 0.1 --view offscreen --quiet --video " + file);
+                                            " --lockstep --for 0.1 --view offscreen --quiet --video " + file + more);
   std::filesystem::remove_all(folder);
   return outcome;
 }
@@ -139,6 +139,20 @@ TEST(Video, EncodesInAGroupOfItsOwn) {
   int group = 0;
   ASSERT_TRUE(std::ifstream(file) >> group);
   EXPECT_NE(group, getpgrp());
+}
+
+// 60 a second in 0.1 s, at 320 x 240 pixels.
+TEST(Video, HasTheRateAndTheSizeThatAreAsked) {
+  const std::string file = test::scratch("film.mp4");
+  const test::Outcome outcome = filmWith("#!/bin/sh\nfor last; do :; done\n/bin/cat > \"$last\"\n", file,
+                                         " --video-rate 60 --video-size 320x240");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(std::filesystem::file_size(file), 6u * 320 * 240 * 3);
+  std::filesystem::remove(file);
+  const test::Outcome still =
+      test::presa("run " + test::source("config/scenes/cube.xml") + " --lockstep --video-rate 60");
+  EXPECT_EQ(still.status, 2);
+  EXPECT_NE(still.err.find("--video-rate: error[E123]: says nothing without a video"), std::string::npos) << still.err;
 }
 
 TEST(Video, WithoutFfmpegNothingIsRun) {

@@ -67,9 +67,9 @@ TEST(BodyHits, AreNoneWhereBodiesRestRollOrSlide) {
   Runner runner(WorldMaker()
                     .table()
                     .ball(kRadius, kMass, {0, 0.2, kRadius})
-                    .box({0.04, 0.04, 0.04}, 0.1, {0, 0, 0.02})
-                    .box({0.04, 0.04, 0.04}, 0.1, {0, 0, 0.06})
-                    .box({0.04, 0.04, 0.04}, 0.1, {0, -0.2, 0.02})
+                    .box({0.04, 0.04, 0.04}, 0.1, {{0, 0, 0.02}, Quat::Identity()})
+                    .box({0.04, 0.04, 0.04}, 0.1, {{0, 0, 0.06}, Quat::Identity()})
+                    .box({0.04, 0.04, 0.04}, 0.1, {{0, -0.2, 0.02}, Quat::Identity()})
                     .world());
   runner.bodies.listen();
   runner.bodies.setVelocity(1, {0.2, 0, 0}, {0, 0.2 / kRadius, 0});
