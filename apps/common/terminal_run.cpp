@@ -372,11 +372,23 @@ void TerminalRun::noteObjectFaults() {
   if ((faults & kFaultBadEffect) != 0) noteBrokenPlugin();
 }
 
+/// What modules say at the end and did not say at the beginning.
+void TerminalRun::noteModules() {
+  for (int g = 0; g < kRateGroupCount; ++g) {
+    for (const Module* module : run_->session().graph().modules(static_cast<RateGroup>(g))) {
+      for (std::string& note : module->notes()) {
+        if (std::ranges::find(result_.notes, note) == result_.notes.end()) result_.notes.push_back(std::move(note));
+      }
+    }
+  }
+}
+
 void TerminalRun::finish() {
   const RunOptions& options = run_->options();
   if (watchdog_trips_ > kMaxReportedTrips) {
     result_.notes.push_back("… and " + std::to_string(watchdog_trips_ - kMaxReportedTrips) + " more of these");
   }
+  noteModules();
   noteCommands();
   noteGuide();
   if (desk_ != nullptr) result_.notes.push_back(desk_->summary());

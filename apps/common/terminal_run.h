@@ -58,6 +58,7 @@ class TerminalRun {
   void fail(double time, std::string what);
   void rearm();
   void offerToCommands();
+  void noteModules();
   void noteCommands();
   void noteGuide();
   void awaitGuide();

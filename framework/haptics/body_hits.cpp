@@ -11,6 +11,7 @@ void BodyHits::add(const BodyHit& hit) noexcept {
   const std::uint64_t kept = std::min<std::uint64_t>(count_, ring_.size());
   for (std::uint64_t n = 1; n <= kept; ++n) {
     const BodyHit& before = ring_[(count_ - n) % ring_.size()];
+    if (hit.time - before.time > 2 * kSamePair) break;  // they are in order, to a step
     const bool same = before.otherThan(hit.A) == hit.B;
     if (same && hit.time - before.time < kSamePair && hit.speed <= before.speed) return;
   }

@@ -25,11 +25,13 @@ struct BodyHit {
 /// still there, however many states it has missed. Written by: dynamics thread, in scenes with a listener.
 class BodyHits {
  public:
-  static constexpr std::size_t kRoom = 64;   ///< hits that are kept
   static constexpr double kMinSpeed = 0.01;  ///< slower contacts are touches, not hits [m/s]
   static constexpr double kSamePair = 0.03;  ///< time in which the same pair is heard again only if faster [s]
+  /// Hits that are kept: more than the bodies of a scene have within a few steps of the dynamics.
+  static std::size_t roomFor(std::size_t bodies) noexcept { return 64 + 8 * bodies; }
 
   BodyHits() = default;  ///< room for none: what add() is given is left out
+  /// Room for the newest `room` hits.
   explicit BodyHits(std::size_t room) : ring_(room) {}
 
   /// Hits since the start, kept or not.
@@ -48,6 +50,7 @@ class BodyHits {
     return lost;
   }
 
+  std::size_t room() const noexcept { return ring_.size(); }  ///< hits that are kept
   /// Memory outside the object itself (SizedAtLoad).
   std::size_t roomBytes() const noexcept { return ring_.capacity() * sizeof(BodyHit); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <numbers>
 
@@ -26,12 +27,13 @@ void Strike::addTo(std::vector<float>& samples, double begin) const {
       std::min(static_cast<std::ptrdiff_t>(samples.size()), first + static_cast<std::ptrdiff_t>(lasts() * kSampleRate));
   for (std::size_t mode = 0; mode < kRatios.size(); ++mode) {
     if (kRatios[mode] * frequency > kHighest) break;
-    const double turn = 2 * std::numbers::pi * kRatios[mode] * frequency, rate = kRatios[mode] / decay;
-    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, first); i < last; ++i) {
-      const double t = begin + static_cast<double>(i) / kSampleRate - time;
-      samples[static_cast<std::size_t>(i)] +=
-          static_cast<float>(loudness * kShares[mode] * std::exp(-rate * t) * std::sin(turn * t));
-    }
+    const std::complex<double> rate(-kRatios[mode] / decay, 2 * std::numbers::pi * kRatios[mode] * frequency);
+    const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, first);
+    std::complex<double> wave =
+        loudness * kShares[mode] * std::exp(rate * (begin + static_cast<double>(from) / kSampleRate - time));
+    const std::complex<double> turn = std::exp(rate / static_cast<double>(kSampleRate));  // over a sample
+    for (std::ptrdiff_t i = from; i < last; ++i, wave *= turn)
+      samples[static_cast<std::size_t>(i)] += static_cast<float>(wave.imag());
   }
 }
 

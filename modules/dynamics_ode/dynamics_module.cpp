@@ -110,7 +110,7 @@ DynamicsModule::DynamicsModule(std::shared_ptr<const World> world, std::uint64_t
   if (hasBodyEffects(world_->scene)) body_effects_.emplace(*world_);
   if (needsBodyHits(world_->scene)) {
     hits_.emplace(*this, kBodyHitsPort);
-    hits_->value = BodyHits(BodyHits::kRoom);
+    hits_->value = BodyHits(BodyHits::roomFor(world_->scene.bodies.size()));
   }
 }
 
@@ -158,12 +158,15 @@ void DynamicsModule::leaveFingersTo(const HeldBodies& held) noexcept {
 }
 
 void DynamicsModule::writeHits() noexcept {
+  BodyHits& hits = hits_->value;
+  const std::uint64_t before = hits.count();
   const auto add = [&](const BodyHit& hit) {
-    hits_->value.add(hit);
+    hits.add(hit);
     return true;
   };
-  bodies_->hits().read(hits_read_, add);
-  if (held_ && held_->hasValue()) held_->value().hits.read(held_hits_read_, add);
+  hits_lost_ += bodies_->hits().read(hits_read_, add);
+  if (held_ && held_->hasValue()) hits_lost_ += held_->value().hits.read(held_hits_read_, add);
+  if (const std::uint64_t added = hits.count() - before; added > hits.room()) hits_lost_ += added - hits.room();
 }
 
 void DynamicsModule::step(const Tick& tick) noexcept {
@@ -193,6 +196,11 @@ std::vector<std::string> DynamicsModule::stages() const {
   std::ranges::move(listStages(options_), std::back_inserter(stages));
   if (hits_) stages.emplace_back("note the bodies that hit each other, for the effects that hear it");
   return stages;
+}
+
+std::vector<std::string> DynamicsModule::notes() const {
+  if (hits_lost_ == 0) return {};
+  return {std::to_string(hits_lost_) + " hits between bodies were lost: more in a step than there is room for"};
 }
 
 std::optional<std::string> DynamicsModule::brokenPlugin() const {

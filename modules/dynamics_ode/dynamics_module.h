@@ -25,6 +25,7 @@ class DynamicsModule final : public Module, public PluginHost {
   void step(const Tick& tick) noexcept override;
   void stop() override;
   std::vector<std::string> stages() const override;
+  std::vector<std::string> notes() const override;
   std::optional<std::string> brokenPlugin() const override;
 
   const Faults& faults() const noexcept { return bodies_->faults(); }  ///< valid between start and stop
@@ -44,7 +45,7 @@ class DynamicsModule final : public Module, public PluginHost {
   BoundedList<std::int32_t> reached_;                    // bodies on which fingers act in this step, with `held_`
   std::optional<BodyEffects> body_effects_;              // only if they act on free bodies
   std::optional<Out<BodyHits>> hits_;                    // only if somebody listens
-  std::uint64_t hits_read_ = 0, held_hits_read_ = 0;     // of this world, of the bodies that are held
+  std::uint64_t hits_read_ = 0, held_hits_read_ = 0, hits_lost_ = 0;  // of this world, of the bodies that are held
   std::uint64_t snap_constraints_seen_ = 0;
   std::shared_ptr<const World> world_;
   const OdeOptions options_;

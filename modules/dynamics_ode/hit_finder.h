@@ -12,7 +12,9 @@ namespace presa::ode {
 /// contacts are within their room.
 class HitFinder {
  public:
-  explicit HitFinder(std::size_t contact_room) { approaches_.reserve(contact_room); }
+  HitFinder(std::size_t bodies, std::size_t contact_room) : hits_(BodyHits::roomFor(bodies)) {
+    approaches_.reserve(contact_room);
+  }
   /// Before the solve.
   void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies);
   /// After it; `time`: of the sub-step's start, `h`: its length [s].
@@ -22,7 +24,7 @@ class HitFinder {
 
  private:
   std::vector<double> approaches_;  // by contact [m/s]
-  BodyHits hits_{BodyHits::kRoom};
+  BodyHits hits_;
 };
 
 }  // namespace presa::ode

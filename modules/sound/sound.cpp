@@ -36,7 +36,7 @@ class Sound final : public Module {
   }
 
   void step(const Tick&) noexcept override {
-    hits_->read(next_, [&](const BodyHit& hit) {
+    lost_ += hits_->read(next_, [&](const BodyHit& hit) {
       for (const auto& pair : pairs_)
         if (pair->materials.holds(hit, world_->scene)) hear(pair->strikeOf(hit));
       return true;
@@ -45,7 +45,9 @@ class Sound final : public Module {
 
   void stop() override {
     loudspeaker_.reset();
-    if (!file_.empty()) std::ofstream(file_, std::ios::binary) << sound::wavOf(heard_);
+    if (file_.empty()) return;
+    std::ofstream file(file_, std::ios::binary);
+    unwritten_ = !(file << sound::wavOf(heard_)).flush();
   }
 
   std::vector<std::string> stages() const override {
@@ -57,8 +59,12 @@ class Sound final : public Module {
   }
 
   std::vector<std::string> notes() const override {
-    if (!plays_ || input::isOnPath(Loudspeaker::kPlayer)) return {};
-    return {"the scene's sounds are not heard: aplay is not on the PATH (Debian: alsa-utils)"};
+    std::vector<std::string> all;
+    if (plays_ && !input::isOnPath(Loudspeaker::kPlayer))
+      all.emplace_back("the scene's sounds are not heard: aplay is not on the PATH (Debian: alsa-utils)");
+    if (lost_ > 0) all.push_back(std::to_string(lost_) + " hits between bodies were not heard: the view was late");
+    if (unwritten_) all.push_back("no sound " + file_ + ": it could not be written");
+    return all;
   }
 
  private:
@@ -88,8 +94,9 @@ class Sound final : public Module {
   const std::string file_;
   std::vector<std::unique_ptr<Pair>> pairs_;  // in the order of the scene
   std::optional<Loudspeaker> loudspeaker_;
-  std::uint64_t next_ = 0;
+  std::uint64_t next_ = 0, lost_ = 0;
   std::vector<Strike> heard_;  // for the file
+  bool unwritten_ = false;
 };
 
 const ModulePlugin kPlugin{

@@ -37,7 +37,7 @@ struct RenderedBody::Parts {
   Surroundings near;
   SurfaceEffects surface;
   BoundedList<RenderedContact> contacts{renderer->maxOwnContacts()};
-  BodyHits hits{BodyHits::kRoom};
+  BodyHits hits{BodyHits::roomFor(1)};
   ProxyState proxy;
   Vec3 last_p_WH = Vec3::Zero();
   bool alive = false;

@@ -34,7 +34,7 @@ class Module {
   virtual void step(const Tick& tick) noexcept = 0;
   virtual void stop() {}                                          ///< once after the last step, on the same thread
   virtual std::vector<std::string> stages() const { return {}; }  ///< stages of a step, in order, for `presa explain`
-  virtual std::vector<std::string> notes() const { return {}; }   ///< for the user as the run begins: what it lacks
+  virtual std::vector<std::string> notes() const { return {}; }   ///< before and after a run: what it lacks, or lost
   virtual std::vector<LeftOut> leftOut() const { return {}; }     ///< possible effects that the scene does not call for
 
  private:

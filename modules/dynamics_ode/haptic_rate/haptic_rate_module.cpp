@@ -73,7 +73,7 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
   if (scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::OfLastTick{});
   if (hasBodyEffects(scene)) body_effects_.emplace(*world_);
   listens_ = needsBodyHits(scene);
-  if (listens_) out_.value.hits = BodyHits(BodyHits::kRoom);
+  if (listens_) out_.value.hits = BodyHits(BodyHits::roomFor(scene.bodies.size()));
 }
 
 void HapticRateModule::start() {

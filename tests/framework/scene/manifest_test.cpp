@@ -134,18 +134,18 @@ TEST_F(Manifests, OfRenderersHaveOneElementWithDefaults) {
   EXPECT_EQ(errors(), "595 <rays> of the renderer 'rays' cannot stand in=\"body\"\n");
 }
 
-TEST_F(Manifests, OfSurfaceEffectsBelongToABodyOrAMaterial) {
+TEST_F(Manifests, OfSurfaceEffectsBelongToABodyAMaterialOrTheScene) {
   const auto effect = [](const std::string& place) {
     return "<plugin name=\"wind\" version=\"1.0\" kind=\"surface_effect\" about=\"a test\"><element name=\"wind\" "
            "in=\"" +
            place + "\"/></plugin>";
   };
-  for (const char* place : {"body", "material"}) {
+  for (const char* place : {"body", "material", "scene"}) {
     write("presa_wind.xml", effect(place));
     EXPECT_EQ(errors(), "");
   }
-  write("presa_wind.xml", effect("scene"));
-  EXPECT_EQ(errors(), "595 <wind> of the surface effect 'wind' cannot stand in=\"scene\"\n");
+  write("presa_wind.xml", effect("haptics"));
+  EXPECT_EQ(errors(), "595 <wind> of the surface effect 'wind' cannot stand in=\"haptics\"\n");
 }
 
 TEST_F(Manifests, OnlyOfRenderersGiveAProxy) {

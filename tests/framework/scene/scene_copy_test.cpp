@@ -22,7 +22,7 @@ void expectSameScene(const std::string& file, const std::vector<Override>& overr
   for (const std::string& to : {(folder / "copy.xml").string(), kScenes + "copy.xml"}) {
     Diagnostics diagnostics;
     const std::string text = sceneCopy(file, overrides, to, diagnostics);
-    const Scene copy = parseScene(text, to, fs::path(to).parent_path().string(), {}, diagnostics);
+    const Scene copy = readCopy(text, to, diagnostics);
     const Scene wanted = loadScene(file, overrides, diagnostics);
     ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
     std::string a = copy.resolved_xml, b = wanted.resolved_xml;

@@ -7,6 +7,7 @@ namespace presa::ode {
 namespace {
 
 constexpr double kRadius = 0.01, kMass = 0.03, kHeight = 0.2;
+constexpr std::size_t kRoom = 64;  // hits
 
 std::vector<BodyHit> hitsOf(const Runner& runner) {
   std::vector<BodyHit> all;
@@ -92,7 +93,7 @@ BodyHit hitAt(double time, double speed, std::int32_t A = 0, std::int32_t B = 1)
 
 // One impact that the solver stops in two steps counts once; another pair, a later or a faster one counts.
 TEST(BodyHits, OfOnePairCountOnceWithinAFewSteps) {
-  BodyHits hits(BodyHits::kRoom);
+  BodyHits hits(kRoom);
   hits.add(hitAt(1, 0.3));
   hits.add(hitAt(1.005, 0.2));
   hits.add(hitAt(1.005, 0.2, 1, 0));
@@ -104,7 +105,7 @@ TEST(BodyHits, OfOnePairCountOnceWithinAFewSteps) {
 }
 
 TEST(BodyHits, AreReadOnceInOrderAndThoseLostAreCounted) {
-  BodyHits hits(BodyHits::kRoom);
+  BodyHits hits(kRoom);
   std::uint64_t next = 0;
   std::vector<double> heard;
   const auto hear = [&](const BodyHit& hit) { return hit.time < 50 && (heard.push_back(hit.time), true); };
@@ -113,8 +114,8 @@ TEST(BodyHits, AreReadOnceInOrderAndThoseLostAreCounted) {
   EXPECT_EQ(hits.read(next, hear), 0U);
   EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2));
   for (int i = 3; i < 100; ++i) hits.add(hitAt(i, 1));
-  EXPECT_EQ(hits.read(next, hear), 100 - 3 - BodyHits::kRoom);
-  EXPECT_EQ(heard.size(), 3 + 50 - (100 - BodyHits::kRoom));
+  EXPECT_EQ(hits.read(next, hear), 100 - 3 - kRoom);
+  EXPECT_EQ(heard.size(), 3 + 50 - (100 - kRoom));
   EXPECT_EQ(next, 50U);  // refused, and offered again
 }
 

@@ -111,7 +111,8 @@ TEST(SceneWithKnocks, SaysWhatItLoadsAndWhichEngineCannot) {
   EXPECT_NE(explained.out.find("note the bodies that hit each other"), std::string::npos) << explained.out;
   const test::Outcome without = test::presa("explain " + test::source("config/scenes/cube.xml"));
   EXPECT_EQ(without.out.find("note the bodies that hit"), std::string::npos) << without.out;
-  const test::Outcome bullet = test::presa("run " + scene + " --lockstep --set dynamics/engine=bullet");
+  const test::Outcome bullet =
+      test::presa("run " + scene + " --lockstep --set dynamics/coupling=soft --set dynamics/engine=bullet");
   EXPECT_EQ(bullet.status, 2);
   EXPECT_NE(bullet.err.find("error[E265]"), std::string::npos) << bullet.err;
   EXPECT_NE(bullet.err.find("engines that do: ode"), std::string::npos) << bullet.err;
