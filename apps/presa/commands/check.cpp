@@ -45,10 +45,15 @@ void printText(const Diagnostics& diagnostics, const CheckArguments& arguments) 
 std::string sizesOf(const World& world) {
   std::size_t triangles = 0;
   for (const BodyMeshes& meshes : world.meshes) triangles += meshes.haptic ? meshes.haptic->triangles.size() : 0;
-  const std::size_t joints = world.scene.joints.size();
-  const std::string jointed = joints == 0 ? "" : ' ' + std::to_string(joints) + (joints == 1 ? " joint," : " joints,");
-  return terminal::format("%zu bodies,%s %zu materials, %zu devices, %zu haptic triangles", world.scene.bodies.size(),
-                          jointed.c_str(), world.scene.materials.size(), world.scene.devices.size(), triangles);
+  const auto count = [](std::size_t n, const char* one, const char* several) {
+    return std::to_string(n) + ' ' + (n == 1 ? one : several);
+  };
+  const Scene& scene = world.scene;
+  std::string text = count(scene.bodies.size(), "body", "bodies");
+  if (!scene.joints.empty()) text += ", " + count(scene.joints.size(), "joint", "joints");
+  return text + ", " + count(scene.materials.size(), "material", "materials") + ", " +
+         count(scene.devices.size(), "device", "devices") + ", " +
+         count(triangles, "haptic triangle", "haptic triangles");
 }
 
 Checked checkScene(const std::string& file, const CheckArguments& arguments) {

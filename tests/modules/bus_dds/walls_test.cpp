@@ -134,7 +134,7 @@ TEST(Walls, FreezeWithoutTheirLeaderAndGoOnWithTheNext) {
     heard = {};
     while (monotonicNs() < end) {
       heard.take(*link);
-      if (heard.complete(1) >= frames && heard.frames.rbegin()->second.X_KHead.p.x() > x) return true;
+      if (heard.complete(1) >= frames && heard.drawn.rbegin()->second.begin()->second.X_KHead.p.x() > x) return true;
       sleepUntilNs(monotonicNs() + 2'000'000);
     }
     return false;
