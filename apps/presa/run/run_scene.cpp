@@ -144,8 +144,7 @@ void addRunOptions(Command command, RunArguments& arguments) {
                  "PNG of the scene, at the middle of the hold when there is one");
   command.option("--screenshot-at", arguments.options.screenshot_time, "simulated time of the screenshot [s]")
       .nonNegative();
-  command.option("--video", arguments.options.video,
-                 "MP4 of the run through ffmpeg");
+  command.option("--video", arguments.options.video, "MP4 of the run through ffmpeg");
   command.option("--sound", arguments.options.sound,
                  "WAV of what a scene with <sound> sounds like, from the start of the run");
   command

@@ -42,7 +42,9 @@ struct HeldBodies {
   BodyHits hits;  ///< of these bodies; without room in scenes where nobody listens
 
   /// Heap memory that it owns [bytes] (SizedAtLoad).
-  std::size_t roomBytes() const noexcept { return bodies.roomBytes() + refused.roomBytes() + counted.roomBytes() + hits.roomBytes(); }
+  std::size_t roomBytes() const noexcept {
+    return bodies.roomBytes() + refused.roomBytes() + counted.roomBytes() + hits.roomBytes();
+  }
 };
 
 inline constexpr const char* kHeldBodiesPort = "held_bodies";
