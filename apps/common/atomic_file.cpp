@@ -1,5 +1,6 @@
 #include "apps/common/atomic_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,13 +27,29 @@ int writeAll(int file, const std::string& text) {
     if (step < 0) return errno;
     written += static_cast<std::size_t>(step);
   }
-  // sync before the rename, or a power cut could leave an empty file under the final name
-  return ::fsync(file) == 0 ? 0 : errno;
+  return 0;
+}
+
+/// A device, a pipe or /dev/stdout is written to; a rename would replace it.
+bool isStream(const std::string& path) {
+  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+void writeStream(const std::string& path, const std::string& text) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file < 0) fail(errno, path);
+  int error = writeAll(file, text);
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) fail(error, path);
 }
 
 }  // namespace
 
 void writeFileAtomically(const std::string& path, const std::string& text) {
+  if (isStream(path)) return writeStream(path, text);
   const std::filesystem::path target(path);
   std::string temporary = (target.parent_path() / (kHalfWritten + target.filename().string() + ".XXXXXX")).string();
   const int file = ::mkstemp(temporary.data());
@@ -41,6 +58,8 @@ void writeFileAtomically(const std::string& path, const std::string& text) {
   ::umask(mask);
   int error = ::fchmod(file, 0666 & ~mask) == 0 ? 0 : errno;
   if (error == 0) error = writeAll(file, text);
+  // before the rename, or a power cut could leave an empty file under the final name
+  if (error == 0 && ::fsync(file) != 0) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return;

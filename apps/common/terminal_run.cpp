@@ -377,7 +377,9 @@ void TerminalRun::noteModules() {
   for (int g = 0; g < kRateGroupCount; ++g) {
     for (const Module* module : run_->session().graph().modules(static_cast<RateGroup>(g))) {
       for (std::string& note : module->notes()) {
-        if (std::ranges::find(result_.notes, note) == result_.notes.end()) result_.notes.push_back(std::move(note));
+        if (std::ranges::find(result_.notes, note) != result_.notes.end()) continue;
+        live_->line.note(note);
+        result_.notes.push_back(std::move(note));
       }
     }
   }
@@ -422,6 +424,8 @@ void TerminalRun::finish() {
       result_.notes.push_back(std::to_string(status.dropped) +
                               " rows of the recording were dropped: the disk was too slow");
   }
+  if (const sound::SoundOutput* sound = run_->session().sound(); sound != nullptr && !sound->trouble().empty())
+    result_.faults.push_back({result_.simulated_seconds, "no sound " + options.sound + ": " + sound->trouble()});
   if (View* view = run_->session().view()) {
     if (options.view == RunOptions::View::kWindow) result_.sharpness = view->sharpness();
     const View::Screenshot shot = view->screenshot();

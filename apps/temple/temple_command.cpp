@@ -471,6 +471,7 @@ void addTemple(Command app, int& status) {
       .existingFile();
   command.option("--screenshot", a->screenshot, "PNG of the scene at its start, with --auto at its end");
   command.option("--video", a->video, "MP4 of the visit through ffmpeg");
+  addVideoRate(command, a->asked);
   addPictureOptions(command, a->asked, a->show);
   command.option("--screenshot-every", a->screenshots, "SECONDS DIR: a PNG every SECONDS simulated seconds")
       .values(2, 2);

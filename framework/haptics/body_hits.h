@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -27,8 +28,8 @@ class BodyHits {
  public:
   static constexpr double kMinSpeed = 0.01;  ///< slower contacts are touches, not hits [m/s]
   static constexpr double kSamePair = 0.03;  ///< time in which the same pair is heard again only if faster [s]
-  /// Hits that are kept: more than the bodies of a scene have within a few steps of the dynamics.
-  static std::size_t roomFor(std::size_t bodies) noexcept { return 64 + 8 * bodies; }
+  /// Hits that are kept for so many bodies: more than they have in a few steps of the dynamics.
+  static std::size_t roomFor(std::size_t bodies) noexcept { return std::min<std::size_t>(64 + 8 * bodies, 1024); }
 
   BodyHits() = default;  ///< room for none: what add() is given is left out
   /// Room for the newest `room` hits.

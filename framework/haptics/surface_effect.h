@@ -43,7 +43,8 @@ struct SurfaceContact {
 };
 
 /// Changes how a surface feels where a tool touches it: its normal, its height, its stiffness. One object for each body
-/// that has the element, in itself or in its material, and for every touchable body if the element stands in the scene; the effects of a body act in the order of the scene.
+/// that has the element, in itself or in its material, and for every touchable body if the element stands in the scene;
+/// the effects of a body act in the order of the scene.
 /// Thread: haptic, except for construction and what(); no allocation, lock, exception or system call.
 class SurfaceEffect {
  public:

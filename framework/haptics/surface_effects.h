@@ -38,8 +38,9 @@ class SurfaceEffects {
   std::atomic<const Effect*> broken_{nullptr};
 };
 
-/// The effects that the scene's touchable bodies have: elements of the scene, one for each body, with `body` filled in
-/// (an element of the scene itself, in no body and no material, counts for every touchable body), and force shading for meshes with shading="smooth". Those that need a proxy are left out if the renderer has none.
+/// The effects that the scene's touchable bodies have: elements of the scene, one for each body, with `body` filled in,
+/// and force shading for meshes with shading="smooth". An element that stands in the scene itself counts for every
+/// touchable body. Those that need a proxy are left out if the renderer has none.
 std::vector<PluginElement> surfaceEffectsOf(const Scene& scene);
 
 /// One of them. Throws InputError: the errors of pluginTable; E596 an effect that cannot be made. Thread: main or view.

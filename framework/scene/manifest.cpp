@@ -278,7 +278,7 @@ std::string boundOf(const char* facet, const std::string& value) {
 std::string typeOf(const Manifest::Element& element, const Manifest::Attribute& attribute, std::string& types) {
   if (attribute.type == "vector3") return "vector3";
   if (attribute.type == "boolean") return "xs:boolean";
-  if (attribute.type == "name") return "xs:NCName";
+  if (attribute.type == "name" || attribute.type == "material") return "xs:NCName";
   if (attribute.type == "text") return "xs:string";
   if (attribute.type == "file") return attribute.required ? "path" : "xs:string";
   const std::string facets = boundOf("minExclusive", attribute.above) + boundOf("minInclusive", attribute.min) +

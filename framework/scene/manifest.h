@@ -16,8 +16,8 @@ struct Manifest {
 
   /// Type "file": in an element, a path relative to the scene; in a setting, to the rig.
   struct Attribute {
-    std::string name,           ///< of the attribute or setting
-        type,                   ///< number, vector3, boolean, name, text or file; of a setting also quaternion or hand
+    std::string name,  ///< of the attribute or setting
+        type,  ///< number, vector3, boolean, name, text, file or material (of the scene); of a setting also quaternion or hand
         unit,                   ///< SI unit such as "N m"; empty: none
         about;                  ///< meaning, one sentence
     bool required = true;       ///< it has no default

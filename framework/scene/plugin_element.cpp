@@ -81,13 +81,13 @@ void forEachPluginElement(const xml::Element& root, const Visit& visit) {
   }
 }
 
-/// Names of the attributes of type "file".
-std::vector<std::string> fileAttributes(const std::string& element) {
+/// Names of the attributes of that type.
+std::vector<std::string> attributesOf(const std::string& element, const std::string& type) {
   std::vector<std::string> names;
   const Manifest::Element* found = findElement(element);
   if (found == nullptr) return names;
   for (const Manifest::Attribute& attribute : found->attributes) {
-    if (attribute.type == "file") names.push_back(attribute.name);
+    if (attribute.type == type) names.push_back(attribute.name);
   }
   return names;
 }
@@ -107,14 +107,22 @@ std::vector<PluginElement> readPluginElements(const xml::Element& root) {
 
 void resolvePluginFiles(const xml::Element& root, const std::string& directory) {
   forEachPluginElement(root, [&](xml::Element element, const Manifest&, std::int32_t, std::int32_t) {
-    for (const std::string& name : fileAttributes(element.name()))
+    for (const std::string& name : attributesOf(element.name(), "file"))
       element.setAttribute(name, resolvePath(element.attribute(name), directory));
+  });
+}
+
+void forEachMaterialNamed(const xml::Element& root,
+                          const std::function<void(const xml::Element&, const std::string&)>& visit) {
+  forEachPluginElement(root, [&](const xml::Element& element, const Manifest&, std::int32_t, std::int32_t) {
+    for (const std::string& name : attributesOf(element.name(), "material"))
+      if (element.hasAttribute(name) && !element.flawed(name)) visit(element, name);
   });
 }
 
 std::vector<std::string> filesNamedBy(const PluginElement& element) {
   std::vector<std::string> files;
-  for (const std::string& name : fileAttributes(element.element)) {
+  for (const std::string& name : attributesOf(element.element, "file")) {
     const auto file = element.attributes.find(name);
     if (file != element.attributes.end() && !file->second.empty()) files.push_back(file->second);
   }

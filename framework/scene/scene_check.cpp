@@ -94,6 +94,7 @@ class SceneCheck {
                          "add <materials><material name=\"rubber\" stiffness=\"1000\"/></materials>");
     }
     for (const Element& body : bodies) checkBody(body);
+    forEachMaterialNamed(root_, [this](const Element& element, const std::string& name) { checkNamed(element, name); });
   }
 
  private:
@@ -289,10 +290,14 @@ class SceneCheck {
                          "materials: " + listed(material_names_));
       return;
     }
-    const std::string material = body.attribute("material");
+    checkNamed(body, "material");
+  }
+
+  void checkNamed(const Element& element, const std::string& attribute) {
+    const std::string material = element.attribute(attribute);
     if (known_materials_.contains(material)) return;
-    diagnostics_.error(kUnknownMaterial, body.where("material"),
-                       body.label() + " has material " + quote(material) + ", which does not exist" +
+    diagnostics_.error(kUnknownMaterial, element.where(attribute),
+                       element.label() + " has " + attribute + " " + quote(material) + ", which does not exist" +
                            didYouMean(material, material_names_),
                        "materials: " + listed(material_names_));
   }

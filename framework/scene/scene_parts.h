@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,6 +80,9 @@ void resolveFiles(const xml::Element& root, const std::string& directory);
 std::vector<PluginElement> readPluginElements(const xml::Element& root);
 /// Makes the files that such elements name absolute.
 void resolvePluginFiles(const xml::Element& root, const std::string& directory);
+/// Calls visit(element, attribute) for each attribute of a plug-in's element that names a material.
+void forEachMaterialNamed(const xml::Element& root,
+                          const std::function<void(const xml::Element&, const std::string&)>& visit);
 /// Attributes of type "file" of the element that have a value.
 std::vector<std::string> filesNamedBy(const PluginElement& element);
 

@@ -328,6 +328,7 @@ std::unique_ptr<Module> Session::load(const PlannedModule& planned) {
   auto module = makeModule(planned, world_, options_);
   std::ranges::copy(module->notes(), std::back_inserter(notes_));
   if (auto* view = dynamic_cast<View*>(module.get())) view_ = view;
+  if (const auto* sound = dynamic_cast<const sound::SoundOutput*>(module.get())) sound_ = sound;
   if (const auto* host = dynamic_cast<const PluginHost*>(module.get())) plugin_hosts_.push_back(host);
   if (auto* assembly = dynamic_cast<AssemblyControl*>(module.get())) assembly_ = assembly;
   return module;

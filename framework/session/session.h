@@ -11,6 +11,7 @@
 #include "framework/record/recording.h"
 #include "framework/session/load_world.h"
 #include "framework/session/view.h"
+#include "framework/sound/sound_output.h"
 
 namespace presa {
 
@@ -58,7 +59,8 @@ class Session {
   ScheduleLog* schedule() noexcept { return schedule_.get(); }
   /// The frames of the rig; null if it has none, or if the devices are not the rig's.
   const FrameWatch* frames() const noexcept { return frame_watch_; }
-  View* view() noexcept { return view_; }  ///< null without a view
+  const sound::SoundOutput* sound() const noexcept { return sound_; }  ///< null without a module that is heard
+  View* view() noexcept { return view_; }                              ///< null without a view
   /// The plug-in of the haptic tick that broke its contract (framework/haptics/plugin_host.h), or none. Thread: any.
   std::optional<std::string> brokenPlugin() const;
   AssemblyControl* assembly() noexcept { return assembly_; }  ///< null if nothing is assembled
@@ -79,6 +81,7 @@ class Session {
   Plan plan_;
   DeviceList devices_;
   std::vector<std::string> notes_;
+  const sound::SoundOutput* sound_ = nullptr;
   std::unique_ptr<ScheduleLog> schedule_;
   Graph graph_;
   std::shared_ptr<FrameTree> frames_;  // only if the rig has frames

@@ -55,6 +55,7 @@ Loudspeaker::Loudspeaker() {
   stream_ = ends[0];
   const int room = 4 * kChunk * 2;
   setsockopt(stream_, SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
+  gone_ = player_ <= 0;
   if (player_ > 0) writer_ = std::thread([this] { write(); });
 }
 
@@ -94,7 +95,10 @@ void Loudspeaker::write() {
     for (const Strike& strike : sounding) strike.addTo(samples, begin);
     pending += pcmOf(samples);
     const ssize_t sent = send(stream_, pending.data(), pending.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (sent < 0 && errno != EAGAIN && errno != EINTR) return;  // the player has gone
+    if (sent < 0 && errno != EAGAIN && errno != EINTR) {
+      gone_ = true;
+      return;
+    }
     pending.erase(0, static_cast<std::size_t>(std::max<ssize_t>(0, sent)));
     if (pending.size() > kMostPending) pending.resize(pending.size() % 2);  // lags: what is left of a sample stays
   }

@@ -23,6 +23,8 @@ class Loudspeaker {
   static bool available();
   /// Name of the program that plays, which must be on the PATH.
   static constexpr const char* kPlayer = "aplay";
+  /// The player could not be started, or has ended.
+  bool hasGone() const noexcept { return gone_; }
   /// Plays a strike at once, whatever its time.
   void play(const Strike& strike);
 
@@ -31,7 +33,7 @@ class Loudspeaker {
 
   int stream_ = -1;
   pid_t player_ = -1;
-  std::atomic<bool> ends_{false};
+  std::atomic<bool> ends_{false}, gone_{false};
   std::mutex mutex_;
   std::vector<Strike> waiting_;
   std::thread writer_;

@@ -10,7 +10,6 @@
 namespace presa::sound {
 namespace {
 
-constexpr double kLongest = 1800;                    // of a WAV file [s]
 constexpr std::array kRatios{1.0, 1.6, 2.3, 2.9};    // of a block's other frequencies to its lowest: chosen by ear
 constexpr std::array kShares{0.5, 0.25, 0.15, 0.1};  // of the amplitude
 constexpr double kHighest = 12000;                   // [Hz]
@@ -47,7 +46,7 @@ std::string pcmOf(const std::vector<float>& samples) {
 
 std::string wavOf(const std::vector<Strike>& strikes) {
   double end = 0;
-  for (const Strike& strike : strikes) end = std::max(end, std::min(kLongest, strike.time + strike.lasts()));
+  for (const Strike& strike : strikes) end = std::max(end, std::min(kLongestWav, strike.time + strike.lasts()));
   std::vector<float> samples(static_cast<std::size_t>(end * kSampleRate));
   for (const Strike& strike : strikes) strike.addTo(samples, 0);
   const std::string pcm = pcmOf(samples);

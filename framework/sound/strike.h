@@ -4,7 +4,8 @@
 
 namespace presa::sound {
 
-inline constexpr int kSampleRate = 44100;  ///< [Hz]
+inline constexpr int kSampleRate = 44100;    ///< [Hz]
+inline constexpr double kLongestWav = 1800;  ///< [s]
 
 /// The sound of a body that was struck: sinusoids that decay, at 1, 1.6, 2.3 and 2.9 times a frequency, the higher ones
 /// weaker and shorter. Amplitude at most `loudness` in all.
@@ -20,8 +21,8 @@ struct Strike {
   void addTo(std::vector<float>& samples, double begin) const;
 };
 
-/// Several strikes from time 0 to the end of the last one: a WAV file of one channel with 16 bits. Strikes after half an
-/// hour are left out.
+/// Several strikes from time 0 to the end of the last one: a WAV file of one channel with 16 bits. Strikes after
+/// kLongestWav are left out.
 std::string wavOf(const std::vector<Strike>& strikes);
 /// Samples in the range of 16 bits; louder ones are cut.
 std::string pcmOf(const std::vector<float>& samples);

@@ -118,7 +118,7 @@ void DynamicsModule::start() {
   attachThread();
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
-  if (hits_) bodies_->listen();
+  if (hits_) bodies_->listen(hits_->value.room());
   bodies_->makeRoom(fingers_.sized());
   if (reactions_) bodies_->makeRoom(reactions_->sized());
   if (held_) {

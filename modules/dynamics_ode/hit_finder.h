@@ -12,9 +12,8 @@ namespace presa::ode {
 /// contacts are within their room.
 class HitFinder {
  public:
-  HitFinder(std::size_t bodies, std::size_t contact_room) : hits_(BodyHits::roomFor(bodies)) {
-    approaches_.reserve(contact_room);
-  }
+  /// `room`: hits that are kept.
+  HitFinder(std::size_t room, std::size_t contact_room) : hits_(room) { approaches_.reserve(contact_room); }
   /// Before the solve.
   void begin(const std::vector<BodyContact>& contacts, const BodySet& bodies);
   /// After it; `time`: of the sub-step's start, `h`: its length [s].

@@ -371,7 +371,7 @@ void OdeWorld::makeRoom(const EffectReactions& reactions) { impl_->effects.makeR
 
 void OdeWorld::use(BodyEffects& effects) { impl_->body_effects.emplace(effects, *impl_->world); }
 
-void OdeWorld::listen() { impl_->hits.emplace(impl_->bodies.size(), impl_->bodies.contactRoom()); }
+void OdeWorld::listen(std::size_t room) { impl_->hits.emplace(room, impl_->bodies.contactRoom()); }
 
 const BodyHits& OdeWorld::hits() const noexcept {
   static const BodyHits kNone;

@@ -61,8 +61,8 @@ class OdeWorld {
   void addReactions(const EffectReactions& reactions, double period) noexcept;
   /// Applies body effects from the next step on; they must outlive this. Never called: none.
   void use(BodyEffects& effects);
-  /// Looks for hits between bodies from the next step on. Never called: hits() stays empty.
-  void listen();
+  /// Looks for hits between bodies from the next step on, and keeps the newest `room`. Never called: hits() stays empty.
+  void listen(std::size_t room);
   /// Hits between bodies so far.
   const BodyHits& hits() const noexcept;
   /// Writes the current poses as a state valid from `time` on [s].

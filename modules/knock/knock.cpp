@@ -29,7 +29,7 @@ class Knock final : public SurfaceEffect {
     requireRendered(element.number("frequency"), world.scene.rates);
     std::ostringstream text;
     text << "knock: " << element.text("a") << " on " << element.text("b") << " rings at " << element.number("frequency")
-         << " Hz for " << 1e3 * element.number("decay") << " ms, " << gain_ << " N a m/s";
+         << " Hz for " << 1e3 * element.number("decay") << " ms, " << gain_ << " N for each m/s";
     what_ = text.str();
   }
 

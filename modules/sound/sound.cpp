@@ -10,6 +10,7 @@
 #include "framework/input/on_path.h"
 #include "framework/session/module_plugin.h"
 #include "framework/sound/loudspeaker.h"
+#include "framework/sound/sound_output.h"
 #include "framework/sound/strike.h"
 
 namespace presa {
@@ -18,10 +19,10 @@ namespace {
 using sound::Loudspeaker;
 using sound::Strike;
 
-class Sound final : public Module {
+class Sound final : public Module, public sound::SoundOutput {
  public:
   Sound(std::shared_ptr<const World> world, const RunOptions& options)
-      : Module("sound", RateGroup::kView),
+      : Module("sound", RateGroup::kDynamics),
         world_(std::move(world)),
         plays_(options.realtime || options.view == RunOptions::View::kWindow),
         file_(options.sound) {
@@ -36,7 +37,7 @@ class Sound final : public Module {
   }
 
   void step(const Tick&) noexcept override {
-    lost_ += hits_->read(next_, [&](const BodyHit& hit) {
+    hits_->read(next_, [&](const BodyHit& hit) {
       for (const auto& pair : pairs_)
         if (pair->materials.holds(hit, world_->scene)) hear(pair->strikeOf(hit));
       return true;
@@ -44,28 +45,29 @@ class Sound final : public Module {
   }
 
   void stop() override {
+    player_gone_ = loudspeaker_ && loudspeaker_->hasGone();
     loudspeaker_.reset();
     if (file_.empty()) return;
     std::ofstream file(file_, std::ios::binary);
-    unwritten_ = !(file << sound::wavOf(heard_)).flush();
+    if (!(file << sound::wavOf(heard_)).flush()) trouble_ = "it could not be written";
   }
 
   std::vector<std::string> stages() const override {
-    std::vector<std::string> all;
-    if (plays_) all.emplace_back("play the bodies that hit each other, through aplay");
-    if (!file_.empty()) all.push_back("keep them for " + file_);
-    if (all.empty()) all.emplace_back("nothing: nobody listens to this run, and --sound names no file");
-    return all;
+    return {
+        "hear the bodies that hit each other: played through aplay in real time or with a window, kept for --sound"};
   }
 
   std::vector<std::string> notes() const override {
     std::vector<std::string> all;
     if (plays_ && !input::isOnPath(Loudspeaker::kPlayer))
       all.emplace_back("the scene's sounds are not heard: aplay is not on the PATH (Debian: alsa-utils)");
-    if (lost_ > 0) all.push_back(std::to_string(lost_) + " hits between bodies were not heard: the view was late");
-    if (unwritten_) all.push_back("no sound " + file_ + ": it could not be written");
+    if (player_gone_)
+      all.emplace_back("the scene's sounds were not heard: aplay ended; is there a sound card? (aplay -l)");
+    if (late_ > 0) all.push_back(std::to_string(late_) + " sounds after the first half hour are not in " + file_);
     return all;
   }
+
+  std::string trouble() const override { return trouble_; }
 
  private:
   /// One element.
@@ -85,7 +87,11 @@ class Sound final : public Module {
 
   void hear(const Strike& strike) {
     if (loudspeaker_) loudspeaker_->play(strike);
-    if (!file_.empty()) heard_.push_back(strike);
+    if (file_.empty()) return;
+    if (strike.time > sound::kLongestWav)
+      ++late_;
+    else
+      heard_.push_back(strike);
   }
 
   In<BodyHits> hits_{*this, kBodyHitsPort, In<BodyHits>::Optional{}};  // no body moves: silence
@@ -94,9 +100,11 @@ class Sound final : public Module {
   const std::string file_;
   std::vector<std::unique_ptr<Pair>> pairs_;  // in the order of the scene
   std::optional<Loudspeaker> loudspeaker_;
-  std::uint64_t next_ = 0, lost_ = 0;
+  std::uint64_t next_ = 0;
   std::vector<Strike> heard_;  // for the file
-  bool unwritten_ = false;
+  std::uint64_t late_ = 0;     // too late for it
+  bool player_gone_ = false;
+  std::string trouble_;
 };
 
 const ModulePlugin kPlugin{

@@ -26,7 +26,7 @@ class Tap final : public SurfaceEffect {
     requireRendered(element.number("frequency"), scene.rates);
     std::ostringstream text;
     text << "tap: rings at " << element.number("frequency") << " Hz for " << 1e3 * decay_ << " ms, " << gain_
-         << " N a m/s";
+         << " N for each m/s";
     what_ = text.str();
   }
 

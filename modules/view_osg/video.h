@@ -7,8 +7,8 @@
 
 namespace presa::view {
 
-/// A video of a run, encoded by ffmpeg through a pipe, whole up to its last frame however the program ends. So many frames per
-/// simulated second at any speed of the machine; a missing frame repeats the previous one.
+/// A video of a run, encoded by ffmpeg through a pipe, whole up to its last frame however the program ends. So many
+/// frames per simulated second at any speed of the machine; a missing frame repeats the previous one.
 /// Thread: the view's; waits for ffmpeg.
 class Video {
  public:

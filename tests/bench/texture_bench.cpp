@@ -38,7 +38,7 @@ void effect(benchmark::State& state, const std::string& element) {
     contact.state.god_object.x() = 0.02 * std::sin(phase);
     contact.tangential_displacement.x() = 1e-3 * std::sin(phase);
     double softness = 1;
-    const SurfaceInput input{0, 0, 1e-3, kRadius, g, contact, X_WA, touchables, near};
+    const SurfaceInput input{0, 0, 1e-3, kRadius, g, contact, X_WA, touchables, near, nullptr};
     effects.act(input, 1000, contact, softness);
     benchmark::DoNotOptimize(contact);
   }

@@ -68,7 +68,7 @@ const std::vector<Arrows>& arrows() {
       {"framework/walls/", {"framework/core/", "framework/scene/", "framework/device/", "framework/bus/"}},
       {"framework/session/",
        {"framework/core/", "framework/plugin/", "framework/input/", "framework/scene/", "framework/assembly/",
-        "framework/device/", "framework/haptics/", "framework/record/", "framework/walls/"}},
+        "framework/device/", "framework/haptics/", "framework/record/", "framework/walls/", "framework/sound/"}},
       {"modules/", {"framework/"}},
       {"devices/", {"framework/", "devices/hand/"}},
       // a model of a device implements the narrow interface of the device's driver

@@ -15,9 +15,10 @@ std::shared_ptr<const World> worldWith(const std::string& haptics, const std::st
                                        const std::string& material_effects) {
   return fingerWorld(R"(<scene version="1.0" name="rendered"><world gravity="0 0 0"/>)" + haptics +
                      R"(<materials><material name="any" stiffness="1000">)" + material_effects +
-                     R"(</material></materials>
+                     R"(</material><material name="other" stiffness="1000"/></materials>
     <body name="body" fixed="true" material="any"><haptic>)" +
                      shape + "</haptic>" + effects + R"(</body>
+    <body name="elsewhere" fixed="true" material="other"/>
     <devices><device role="finger" fingertip_radius="0.008"/></devices></scene>)");
 }
 

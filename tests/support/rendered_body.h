@@ -15,8 +15,9 @@ namespace presa::test {
 ///     EXPECT_NEAR(box.force({0, 0, 0.057}).z(), 1, 1e-9);
 class RenderedBody {
  public:
-  /// `haptics`: the scene's `<haptics>` and effects that stand in the scene, or empty; `shape`: the haptic geometry of the body; `effects`: surface effects
-  /// of the body; `material_effects`: of its material. Throws InputError with every finding.
+  /// `haptics`: the scene's `<haptics>` and effects that stand in the scene, or empty; `shape`: the haptic geometry of
+  /// the body; `effects`: surface effects of the body; `material_effects`: of its material. Throws InputError with every
+  /// finding.
   RenderedBody(const std::string& haptics, const std::string& shape, const std::string& effects = {},
                const std::string& material_effects = {});
   ~RenderedBody();
@@ -25,7 +26,8 @@ class RenderedBody {
   /// its contract. In the first tick the fingertip should be free.
   /// Nonblocking if the plug-ins are: put a RealTimeGuard around it.
   Vec3 force(const Vec3& p_WH) noexcept;
-  /// A hit between bodies that surface effects may hear from the next tick on. The one body has the index 0.
+  /// A hit between bodies that surface effects may hear from the next tick on. The body has the index 0 and the
+  /// material 'any'; index 1 is one of material 'other', which has no geometry.
   void hear(const BodyHit& hit) noexcept;
 
  private:

@@ -40,11 +40,12 @@ void offerFolder(CLI::App& app, const char* option, void (*allow)(const std::str
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-/// Adds --allow-folder and --allow-plugins to every command without subcommands.
+/// Adds --allow-folder and --allow-plugins to every command that does something itself.
 void offerFolders(CLI::App& app) {
   const auto commands = app.get_subcommands([](CLI::App*) { return true; });
   for (CLI::App* command : commands) offerFolders(*command);
-  if (!commands.empty()) return;
+  const auto places = app.get_options([](const CLI::Option* option) { return option->get_positional(); });
+  if (!commands.empty() && places.empty()) return;  // as presa bus
   offerFolder(app, "--allow-folder", input::allowFolder,
               "files may name files in this folder, too (repeatable; also PRESA_ALLOW_FOLDERS)");
   offerFolder(app, "--allow-plugins", allowPlugins,

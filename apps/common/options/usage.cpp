@@ -83,6 +83,10 @@ std::string placesOf(const CLI::App& app) {
   return text.empty() ? "no file and no name" : text;
 }
 
+bool takesFiles(const CLI::App& app) {
+  return std::ranges::any_of(app.get_options(), [](const CLI::Option* option) { return option->get_positional(); });
+}
+
 bool isFile(const std::string& word) {
   std::error_code ignored;
   return word.ends_with(".xml") || word.ends_with(".h5") || std::filesystem::is_regular_file(word, ignored);
@@ -173,11 +177,12 @@ void requireCommand(const CLI::App& app, std::vector<std::string>& words, const 
     if (word == "-h" || std::ranges::find(options, word) != options.end()) return;
     const auto known = at->get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
     const CLI::App* next = known.empty() ? nullptr : known.front();
+    if (next == nullptr && takesFiles(*at)) return;  // as presa cost SCENE beside presa cost merge
     if (next == nullptr) refuseWord(*at, word, names);
     at = next;
   }
   const std::vector<std::string> names = commandsOf(*at, programs);
-  if (names.empty()) return;
+  if (names.empty() || takesFiles(*at)) return;
   const std::string here = commandOf(*at);
   refuse(kBadArgument, here, "a command is missing: " + listed(names, "or"),
          here + " --help tells what each does" +

@@ -16,6 +16,15 @@ RunOptions::View chooseView(const std::string& wanted, bool live, bool drawn) {
   return drawn ? RunOptions::View::kOffscreen : RunOptions::View::kNone;
 }
 
+void addVideoRate(Command command, PictureArguments& asked) {
+  command
+      .option("--video-rate", asked.video_rate,
+              "pictures of a video for each simulated second, 1 to 240; above the rate of the view (<rates view>) they "
+              "repeat")
+      .within(1, 240)
+      .showDefault();
+}
+
 void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show) {
   command
       .option(
@@ -28,11 +37,6 @@ void addPictureOptions(Command command, PictureArguments& asked, std::vector<std
       .option("--picture-size,--video-size", asked.size,
               "pixels of a picture, a video, or the window at first (default: 1280x720)")
       .kind("WxH");
-  command
-      .option("--video-rate", asked.video_rate,
-              "pictures of a video for each simulated second, 1 to 240; above the scene's view rate pictures repeat")
-      .within(1, 240)
-      .showDefault();
   command
       .option("--hud", asked.hud,
               "figures over the scene: off, minimal (scene, time, scale bar) or full; what other options ask for stays")

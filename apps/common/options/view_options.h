@@ -18,9 +18,12 @@ struct PictureArguments {
   bool legend = false;
 };
 
-/// Adds the options of everything that draws: --camera, --picture-size, --video-rate, --hud, --legend, --background, --light, and --show
-/// PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
+/// Adds the options of everything that draws: --camera, --picture-size, --hud, --legend, --background, --light, and
+/// --show PART,no-PART…: parts that the picture shows in addition to its defaults, or leaves out.
 void addPictureOptions(Command command, PictureArguments& asked, std::vector<std::string>& show);
+
+/// Adds --video-rate, to a command with --video.
+void addVideoRate(Command command, PictureArguments& asked);
 
 /// The same as the view takes it, for a picture that goes where `options` says (view, video, screenshot). Errors: E706
 /// camera, E707 size, E708 a background that can only be drawn off-screen.

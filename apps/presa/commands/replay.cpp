@@ -186,6 +186,7 @@ void addReplay(Command app, int& status) {
   command.option("--screenshot", arguments->shown.screenshot, "PNG of one moment");
   command.option("--screenshot-at", arguments->shown.screenshot_time, "which moment [s] (default: the end)");
   command.option("--video", arguments->shown.video, "MP4 of all of it, through ffmpeg");
+  addVideoRate(command, arguments->picture);
   addPictureOptions(command, arguments->picture, arguments->shown.show);
   command.option("--page", arguments->page,
                  "one HTML page: the motion in 3-D and its plots under one time scrubber; opens offline (libjs-three)");

@@ -22,7 +22,7 @@ void checkCave(const Command& command, const CaveSettings& cave) {
     refuse(123, "--walls", "needs --wall NAME, --head RIG, or both", "a process draws one wall, or leads the others");
   for (const char* option : {"--stereo", "--screenshot"})
     if (cave.wall.empty() && given(option)) refuse(123, option, "says nothing without --wall");
-  for (const char* option : {"--camera", "--picture-size", "--video-rate", "--hud", "--legend", "--background"})
+  for (const char* option : {"--camera", "--picture-size", "--hud", "--legend", "--background"})
     if (given(option))
       refuse(123, option, "says nothing on a wall: the head is the camera, the file of the walls has their sizes");
 }

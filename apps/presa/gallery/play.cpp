@@ -40,6 +40,7 @@ void forgetFiles(RunArguments& arguments) {
                             &arguments.summary, &arguments.report})
     file->clear();
   options.screenshot_time = RunOptions{}.screenshot_time;
+  arguments.picture.video_rate = PictureArguments{}.video_rate;
   arguments.quiet = true;
 }
 

@@ -146,13 +146,14 @@ void addRunOptions(Command command, RunArguments& arguments) {
       .nonNegative();
   command.option("--video", arguments.options.video, "MP4 of the run through ffmpeg");
   command.option("--sound", arguments.options.sound,
-                 "WAV of what a scene with <sound> sounds like, from the start of the run");
+                 "WAV of what a scene with <sound> sounds like, from the start of the run, half an hour at most");
   command
       .option(
           "--speed", arguments.speed,
           "simulated seconds in a second, of a lockstep run (default: with a window 1, where the keys [ and ] change\n"
           "it; without as many as the machine makes)")
       .positive();
+  addVideoRate(command, arguments.picture);
   addPictureOptions(command, arguments.picture, arguments.options.show);
   addBusOptions(command, arguments.options.bus, "publish the state for presa view --join");
   addBusCommandsOption(command, arguments.options.bus_commands);

@@ -3,20 +3,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <set>
 #include <thread>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/file_text.h"
 #include "apps/common/machine.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
-#include "apps/common/version.h"
-#include "apps/studies/cost/factors.h"
-#include "apps/studies/cost/fixed_rig.h"
 #include "apps/studies/cost/forecast.h"
-#include "apps/studies/cost/hash.h"
+#include "apps/studies/cost/identity.h"
+#include "apps/studies/cost/machine_turn.h"
 #include "apps/studies/cost/measure.h"
 #include "apps/studies/cost/meshes.h"
 #include "apps/studies/cost/metrics.h"
@@ -54,13 +52,15 @@ Forecast::Run runOf(const Task& task) {
 
 class Driver {
  public:
-  Driver(const Study& study, const DriverOptions& options)
-      : study_(study), options_(options), forecast_(workersOf(options)) {}
+  /// `shard`: the part of the study to run; 1 of 1 is all of it.
+  Driver(const Study& study, const DriverOptions& options, const Shard& shard = {})
+      : study_(study), options_(options), shard_(shard), forecast_(workersOf(options)) {}
 
   Result run() {
     prepare();
     result_.study = study_;
-    watchAll();
+    watchFirst();
+    refineReference();
     for (std::size_t repeat = 0; repeat < static_cast<std::size_t>(study_.repeats); ++repeat)
       timeAll(static_cast<int>(repeat));
     if (options_.instructions) timeAll(kCounted);
@@ -71,13 +71,30 @@ class Driver {
     return std::move(result_);
   }
 
+  /// False: interrupted.
+  bool runShard() {
+    prepare();
+    {
+      const MachineTurn turn = takeTurn(MachineTurn::kWithOthers);
+      watchFirst();
+    }
+    const MachineTurn turn = takeTurn(MachineTurn::kAlone);
+    for (int repeat = 0; repeat < study_.repeats; ++repeat) timeAll(repeat);
+    if (options_.instructions) timeAll(kCounted);
+    progress_->finish();
+    return !stopped_;
+  }
+
  private:
+  bool runs(std::size_t setting) const { return shard_.holds(setting) && study_.settings[setting].impossible.empty(); }
+  MachineTurn takeTurn(MachineTurn::Kind kind);
   void prepare();
   void expectAll();
   void ended(const Task& task, double seconds, const std::string& what);
   StudySpec spec(const Task& task) const;
   void work(const std::vector<Task>& tasks, int workers, const std::string& what);
-  void watchAll();
+  void watchFirst();
+  void refineReference();
   void timeAll(int repeat);
   Timing timing(const Task& task) const;
   void compare(std::size_t levels);
@@ -86,6 +103,7 @@ class Driver {
 
   const Study& study_;
   const DriverOptions& options_;
+  const Shard shard_;
   std::string rig_;
   std::unique_ptr<RunStore> store_;
   std::vector<std::uint64_t> level_hash_;
@@ -96,33 +114,17 @@ class Driver {
 };
 
 void Driver::prepare() {
-  Diagnostics diagnostics;
-  const Loaded base = loadWorld(study_.inputs, {}, diagnostics);
-  if (!diagnostics.hasErrors()) {
-    for (const auto& sets : study_.reference) level_hash_.push_back(checkedScene(study_.inputs, sets, diagnostics));
-  }
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  const std::string rig = rigWithFixedDamping(base);
-  if (!rig.empty()) {
+  const Identity identity = identityOf(study_);
+  level_hash_ = identity.levels;
+  if (!identity.rig.empty()) {
     rig_ = study_.folder + "/rig.xml";
-    writeFileAtomically(rig_, rig);
+    writeFileAtomically(rig_, identity.rig);
   }
   result_.meshes = makeMeshes(study_);
-  Hash common;
-  common.add(rig);
-  for (const DeviceBinding& binding : base.world->rig.devices) {
-    for (const auto& [key, setting] : binding.settings) {
-      if (key == "motion" || key == "file") common.add(contentsOf(setting.value));
-    }
-  }
-  for (const std::string& text :
-       {std::to_string(study_.duration), std::to_string(study_.seed), study_.compared.from, study_.compared.to,
-        study_.steady.from, study_.steady.to, std::string(kVersion), std::string(Trace::kFormat)})
-    common.add(text);
   const std::string runs = study_.folder + "/runs";
   if (!options_.resume) fs::remove_all(runs);
   fs::create_directories(runs);
-  store_ = std::make_unique<RunStore>(runs, common.value());
+  store_ = std::make_unique<RunStore>(runs, identity.common);
   expectAll();
 }
 
@@ -132,14 +134,25 @@ void Driver::expectAll() {
     forecast_.add(runOf(task));
     ++count;
   };
-  for (std::size_t level = 0; level < std::min<std::size_t>(2, level_hash_.size()); ++level)
-    expect({{}, level_hash_[level]});
-  for (const Setting& setting : study_.settings) {
-    if (!setting.impossible.empty()) continue;
-    for (int repeat = kWatched; repeat < study_.repeats; ++repeat) expect({{}, setting.scene_hash, repeat});
-    if (options_.instructions) expect({{}, setting.scene_hash, kCounted});
+  for (std::size_t level = 0; level < std::min(kFirstLevels, level_hash_.size()); ++level)
+    if (shard_.holds(level)) expect({{}, level_hash_[level]});
+  for (std::size_t i = 0; i < study_.settings.size(); ++i) {
+    if (!runs(i)) continue;
+    const std::uint64_t hash = study_.settings[i].scene_hash;
+    for (int repeat = kWatched; repeat < study_.repeats; ++repeat) expect({{}, hash, repeat});
+    if (options_.instructions) expect({{}, hash, kCounted});
   }
   progress_ = std::make_unique<terminal::JobProgress>(count);
+}
+
+MachineTurn Driver::takeTurn(MachineTurn::Kind kind) {
+  MachineTurn turn;
+  while (!stopped_ && !turn.take(kind)) {
+    progress_->show();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stopped_ = terminal::JobProgress::interrupted();
+  }
+  return turn;
 }
 
 void Driver::ended(const Task& task, double seconds, const std::string& what) {
@@ -201,16 +214,19 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
   for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
 }
 
-// Refines the reference until its own uncertainty is small compared with the smallest error in the report.
-void Driver::watchAll() {
+void Driver::watchFirst() {
   std::vector<Task> tasks;
-  for (std::size_t level = 0; level < std::min<std::size_t>(2, study_.reference.size()); ++level)
-    tasks.push_back({study_.reference[level], level_hash_[level]});
-  for (const Setting& setting : study_.settings) {
-    if (setting.impossible.empty()) tasks.push_back({setting.sets, setting.scene_hash});
+  for (std::size_t level = 0; level < std::min(kFirstLevels, study_.reference.size()); ++level)
+    if (shard_.holds(level)) tasks.push_back({study_.reference[level], level_hash_[level]});
+  for (std::size_t i = 0; i < study_.settings.size(); ++i) {
+    if (runs(i)) tasks.push_back({study_.settings[i].sets, study_.settings[i].scene_hash});
   }
   work(tasks, options_.workers, "accuracy");
-  for (std::size_t levels = 2; !stopped_; ++levels) {
+}
+
+// Until the reference's own uncertainty is small compared with the smallest error in the report.
+void Driver::refineReference() {
+  for (std::size_t levels = kFirstLevels; !stopped_; ++levels) {
     compare(levels);
     if (study_.reference.empty() || result_.reference.fine_enough || levels >= study_.reference.size()) return;
     const Task finer{study_.reference[levels], level_hash_[levels]};
@@ -228,10 +244,11 @@ Timing Driver::timing(const Task& task) const {
 }
 
 void Driver::timeAll(int repeat) {
-  if (stopped_) return;
+  if (stopped_ || !options_.measured_on.empty()) return;
   std::vector<Task> tasks;
-  for (const Setting& setting : study_.settings) {
-    if (!setting.impossible.empty()) continue;
+  for (std::size_t i = 0; i < study_.settings.size(); ++i) {
+    if (!runs(i)) continue;
+    const Setting& setting = study_.settings[i];
     const Task task{setting.sets, setting.scene_hash, repeat};
     if (store_->evidence(setting.scene_hash, false).failure == kTooLong)
       ended(task, -1, "time");
@@ -302,7 +319,7 @@ void Driver::collect() {
     }
     for (const Timing& timing : outcome.timings) engines.insert(timing.engines.begin(), timing.engines.end());
   }
-  result_.machine = machineFacts();
+  result_.machine = options_.measured_on.empty() ? machineFacts() : options_.measured_on;
   std::string names;
   for (const std::string& engine : engines) names += (names.empty() ? "" : ", ") + engine;
   if (!names.empty()) result_.machine.emplace_back("engines", names);
@@ -320,5 +337,9 @@ void checkFolder(const std::string& folder, Diagnostics& diagnostics) {
 }
 
 Result runStudy(const Study& study, const DriverOptions& options) { return Driver(study, options).run(); }
+
+bool runShard(const Study& study, const Shard& shard, const DriverOptions& options) {
+  return Driver(study, options, shard).runShard();
+}
 
 }  // namespace presa::cost

@@ -58,9 +58,9 @@ struct Checked {
   std::uint64_t hash = 0;
 };
 
-Checked checkScene(const Inputs& inputs, const std::vector<std::string>& sets) {
+Checked checkScene(const Inputs& inputs, const std::vector<std::string>& sets, const std::string& folder) {
   Checked checked;
-  checked.hash = checkedScene(inputs, sets, checked.diagnostics);
+  checked.hash = checkedScene(inputs, sets, folder, checked.diagnostics);
   return checked;
 }
 
@@ -176,15 +176,18 @@ std::vector<std::string> factorNames() {
   return names;
 }
 
-std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, Diagnostics& diagnostics) {
+std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, const std::string& folder,
+                           Diagnostics& diagnostics) {
   std::vector<Override> overrides;
   for (const std::string& set : with(inputs.sets, sets)) {
     const std::size_t equals = set.find('=');
     if (equals != std::string::npos) overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
   }
   Hash hash;
-  for (const std::string& part : sortedParts(loadScene(inputs.scene, overrides, diagnostics).resolved_xml))
-    hash.add(part);
+  std::string resolved = loadScene(inputs.scene, overrides, diagnostics).resolved_xml;
+  for (std::size_t at = 0; !folder.empty() && (at = resolved.find(folder, at)) != std::string::npos;)
+    resolved.erase(at, folder.size());
+  for (const std::string& part : sortedParts(resolved)) hash.add(part);
   return hash.value();
 }
 
@@ -216,7 +219,7 @@ Factor makeFactor(const std::string& name, const std::vector<std::string>& value
 }
 
 void addSettings(Study& study, const std::vector<Factor>& factors, Combine combine, Diagnostics& diagnostics) {
-  const Checked base = checkScene(study.inputs, {});
+  const Checked base = checkScene(study.inputs, {}, study.folder);
   if (base.diagnostics.hasErrors()) return;  // reported by the caller
   if (study.settings.empty()) {
     Setting& first = study.settings.emplace_back();
@@ -233,7 +236,7 @@ void addSettings(Study& study, const std::vector<Factor>& factors, Combine combi
       setting.sets = with(std::move(setting.sets), value.sets);
       setting.choices.emplace_back(factors[k].name, value.name);
     }
-    const Checked checked = checkScene(study.inputs, setting.sets);
+    const Checked checked = checkScene(study.inputs, setting.sets, study.folder);
     setting.scene_hash = checked.hash;
     setting.impossible = firstError(checked.diagnostics);
     for (std::size_t k = 0; k < factors.size(); ++k) {
@@ -279,7 +282,7 @@ void nameSettings(Study& study) {
   for (const Factor& factor : study.factors) {
     usual[factor.name] = "as in the scene";
     for (const FactorValue& value : factor.values) {
-      const Checked alone = checkScene(study.inputs, value.sets);
+      const Checked alone = checkScene(study.inputs, value.sets, study.folder);
       if (!alone.diagnostics.hasErrors() && alone.hash == base) usual[factor.name] = value.name;
     }
   }
@@ -297,7 +300,7 @@ void nameSettings(Study& study) {
         if (each.name == value) needed = with(std::move(needed), each.sets);
       }
     }
-    const Checked shorter = checkScene(study.inputs, needed);
+    const Checked shorter = checkScene(study.inputs, needed, study.folder);
     if (!shorter.diagnostics.hasErrors() && shorter.hash == setting.scene_hash) setting.sets = needed;
     if (setting.name.empty()) setting.name = "default";
   }
@@ -328,7 +331,7 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
     Factor factor = makeFactor(name, values, scene, folder, {}, ignored);
     // skip values incompatible with the scene's other rates; the user did not ask for them
     std::erase_if(factor.values, [&](const FactorValue& value) {
-      return checkScene({scene.file, "", {}}, value.sets).diagnostics.hasErrors();
+      return checkScene({scene.file, "", {}}, value.sets, "").diagnostics.hasErrors();
     });
     if (!factor.values.empty()) factors.push_back(std::move(factor));
   };

@@ -1,13 +1,13 @@
 #include "apps/studies/cost/measure.h"
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
+#include "apps/common/shell.h"
 #include "framework/core/schedule/clock.h"
 
 namespace presa::cost {
@@ -32,30 +32,18 @@ double residentBytes() {
   return 0;
 }
 
-std::string quotedForShell(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 /// Number of instructions of one whole run.
 double callgrind(const StudySpec& spec, double duration) {
   const std::string program = (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "presa").string();
-  std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + quotedForShell(program) +
-                        " run " + quotedForShell(spec.scene) + " --lockstep --view none --quiet --seed " +
+  std::string command = "valgrind --tool=callgrind --callgrind-out-file=/dev/null " + shell::quoted(program) + " run " +
+                        shell::quoted(spec.scene) + " --lockstep --view none --quiet --seed " +
                         std::to_string(spec.seed) + " --for " + std::to_string(duration);
-  if (!spec.rig.empty()) command += " --rig " + quotedForShell(spec.rig);
-  for (const std::string& set : spec.sets) command += " --set " + quotedForShell(set);
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("valgrind could not be started");
-  double collected = 0;
-  std::array<char, 512> line;
-  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
-    const std::string text = line.data();
-    if (const std::size_t at = text.find("Collected : "); at != std::string::npos)
-      collected = std::atof(text.c_str() + at + 12);
-  }
-  ::pclose(pipe);
+  if (!spec.rig.empty()) command += " --rig " + shell::quoted(spec.rig);
+  for (const std::string& set : spec.sets) command += " --set " + shell::quoted(set);
+  const shell::Outcome outcome = shell::run(command);
+  constexpr std::string_view kMark = "Collected : ";
+  const std::size_t at = outcome.text.find(kMark);
+  const double collected = at == std::string::npos ? 0 : std::atof(outcome.text.c_str() + at + kMark.size());
   if (!(collected > 0)) throw std::runtime_error("valgrind counted nothing");
   return collected;
 }

@@ -83,7 +83,9 @@ bool isAlone(const Loaded& base) {
 }  // namespace
 
 void chooseFolder(const Request& request, Study& study) {
-  const std::string folder = request.out.empty() ? "cost_" + study.name : request.out;
+  std::string folder = request.out.empty() ? "cost_" + study.name : request.out;
+  if (request.out.empty() && request.shard)
+    folder += "_" + std::to_string(request.shard->index) + "_of_" + std::to_string(request.shard->count);
   study.folder = std::filesystem::absolute(folder).lexically_normal().string();
   input::allowFolder(study.folder);  // allows reading the meshes that the study writes
 }
@@ -123,7 +125,7 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
     study.reference.clear();
   else if (study.reference.empty())
     study.reference = defaultReference(base.plan);
-  for (const auto& level : study.reference) checkedScene(study.inputs, level, diagnostics);
+  for (const auto& level : study.reference) checkedScene(study.inputs, level, study.folder, diagnostics);
 
   const bool hands_off = scene.devices.empty() && hasMotion(base.plan);
   if (study.reference_kind == Reference::kAnalytic && !hands_off)

@@ -1,10 +1,18 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/studies/cost/study.h"
 
 namespace presa::cost {
+
+/// One of `count` parts of a study, each made by a process of its own, perhaps on another machine.
+struct Shard {
+  int index = 1, count = 1;  ///< 1 <= index <= count
+  /// Whether it makes the runs of that setting, or of that level of the reference.
+  bool holds(std::size_t i) const { return i % static_cast<std::size_t>(count) + 1 == static_cast<std::size_t>(index); }
+};
 
 /// The command line's request.
 struct Request {
@@ -15,13 +23,14 @@ struct Request {
   double duration = 0;     ///< simulated [s]; 0: the study's, or to the end of the script
   std::uint64_t seed = 0;  ///< 0: the study's, or 1
   bool quick = false;
+  std::optional<Shard> shard{};  ///< none: the whole study
 };
 
 /// Plans and checks the requested study; all errors go to `diagnostics` at once, and the result is unusable if there
 /// are any. Runs nothing.
 Study planStudy(const Request& request, Diagnostics& diagnostics);
 
-/// Sets Study::folder, the folder of the results, from the request and the study's name.
+/// Sets Study::folder, the folder of the results, from the request, the study's name and the shard.
 void chooseFolder(const Request& request, Study& study);
 
 /// Reads a study file into `study`, except the settings, and returns its factor grids.

@@ -73,14 +73,14 @@ HapticRateModule::HapticRateModule(std::shared_ptr<const World> world, std::uint
   if (scene.hasForceEffects()) reactions_.emplace(*this, kEffectReactionsPort, In<EffectReactions>::OfLastTick{});
   if (hasBodyEffects(scene)) body_effects_.emplace(*world_);
   listens_ = needsBodyHits(scene);
-  if (listens_) out_.value.hits = BodyHits(BodyHits::roomFor(scene.bodies.size()));
+  if (listens_) out_.value.hits = BodyHits(BodyHits::roomFor(room));
 }
 
 void HapticRateModule::start() {
   attachThread();
   bodies_ = std::make_unique<OdeWorld>(world_, options_);
   if (body_effects_) bodies_->use(*body_effects_);
-  if (listens_) bodies_->listen();
+  if (listens_) bodies_->listen(out_.value.hits.room());
   bodies_->makeRoom(fingers_.sized());
   if (reactions_) bodies_->makeRoom(reactions_->sized());
   for (const std::size_t i : free_) bodies_->hold(i, world_->scene.bodies[i].X_WB, Vec3::Zero(), Vec3::Zero());

@@ -213,6 +213,13 @@ TEST(Replay, RefusesAMeshThatIsNotTheOneOfTheRun) {
   EXPECT_NE(other.err.find("touched.obj' is not the one of the run: SHA-256 "), std::string::npos) << other.err;
 }
 
+// A pipe is written to, and not replaced by a file.
+TEST(Summary, GoesToAPipe) {
+  const auto outcome = presa("run " + kCubeScene + " --lockstep --for 0.1 --quiet --view none --summary /dev/stdout");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out).at("duration_s"), 0.1);
+}
+
 // Ctrl-C in the middle of a real-time grasp: status 130, forces faded to zero in the recording, file complete.
 TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   const std::string file = scratch("interrupted.h5");

@@ -32,7 +32,7 @@ class Hits : public testing::TestWithParam<DynamicsSettings::Solver> {
 // without the gravity within the step: g h^2 / 2 over the speed, and less than a step.
 TEST_P(Hits, OfAFallingBallAreThoseOfFreeFall) {
   Runner runner(WorldMaker().table().ball(kRadius, kMass, {0.02, 0, kRadius + kHeight}).world(), options());
-  runner.bodies.listen();
+  runner.bodies.listen(kRoom);
   while (runner.time < 1) runner.step();
   const std::vector<BodyHit> hits = hitsOf(runner);
   ASSERT_EQ(hits.size(), 1);
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(BySolver, Hits,
 TEST(BodyHits, OfABouncingBallSlowDown) {
   constexpr double kRestitution = 0.7;
   Runner runner(WorldMaker().bouncing(kRestitution).table().ball(kRadius, kMass, {0, 0, kRadius + kHeight}).world());
-  runner.bodies.listen();
+  runner.bodies.listen(kRoom);
   while (runner.time < 1.5) runner.step();
   const std::vector<BodyHit> hits = hitsOf(runner);
   ASSERT_GE(hits.size(), 4);
@@ -72,7 +72,7 @@ TEST(BodyHits, AreNoneWhereBodiesRestRollOrSlide) {
                     .box({0.04, 0.04, 0.04}, 0.1, {{0, 0, 0.06}, Quat::Identity()})
                     .box({0.04, 0.04, 0.04}, 0.1, {{0, -0.2, 0.02}, Quat::Identity()})
                     .world());
-  runner.bodies.listen();
+  runner.bodies.listen(kRoom);
   runner.bodies.setVelocity(1, {0.2, 0, 0}, {0, 0.2 / kRadius, 0});
   runner.bodies.setVelocity(4, {0.3, 0, 0}, Vec3::Zero());
   while (runner.time < 1) runner.step();

@@ -36,7 +36,7 @@ class Cube {
       const ProxyContact contact = renderer_->touch({0, p_WH, kR, proxy, X_WA, near_, own});
       proxy = contact.state;
       if (!contact.state.touching) continue;
-      const SurfaceInput input{0, 0, 1e-3, kR, p_WH, contact, X_WA, touchables_, near_};
+      const SurfaceInput input{0, 0, 1e-3, kR, p_WH, contact, X_WA, touchables_, near_, nullptr};
       return world_.scene.bodies[0].haptic->X_BG.inverse() * input.X_BT();
     }
     ADD_FAILURE() << "no contact";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/apps/presa/support.h"
@@ -24,7 +25,9 @@ test::RenderedBody box(const std::string& b = "any") {
           R"(<box size="0.1 0.1 0.1"/>)"};
 }
 
-BodyHit hitAt(double time, double speed) { return {.time = time, .A = 0, .B = 0, .speed = speed}; }
+BodyHit hitAt(double time, double speed, std::int32_t A = 0, std::int32_t B = 0) {
+  return {.time = time, .A = A, .B = B, .speed = speed};
+}
 
 double formula(double speed, double t) { return t < 0 ? 0 : kGain * speed * std::exp(-t / kDecay) * std::sin(kW * t); }
 
@@ -81,25 +84,56 @@ TEST(Knock, NeitherAllocatesNorLocks) {
   EXPECT_EQ(guard.violations(), 0) << guard.first();
 }
 
-TEST(Knock, OfAMaterialThatTheSceneDoesNotHaveIsRefused) {
-  try {
-    box("chalk");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(error.diagnostics().text().find("the scene has no material 'chalk'; it has any"), std::string::npos)
-        << error.diagnostics().text();
+// A hit of the other pair, of bodies that this one is not, and of the right pair: only the last is felt.
+TEST(Knock, RingsForItsPairOfMaterials) {
+  for (const auto& [b, hit, felt] :
+       {std::tuple("other", hitAt(0.003, 0.2, 0, 0), false), std::tuple("any", hitAt(0.003, 0.2, 0, 1), false),
+        std::tuple("other", hitAt(0.003, 0.2, 1, 1), false), std::tuple("other", hitAt(0.003, 0.2, 0, 1), true),
+        std::tuple("other", hitAt(0.003, 0.2, 1, 0), true)}) {
+    test::RenderedBody body = box(b);
+    arrive(body);
+    body.hear(hit);
+    double largest = 0;
+    for (const double f : ringOf(body)) largest = std::max(largest, std::abs(f));
+    EXPECT_EQ(largest > 0.3, felt) << b << ' ' << hit.A << ' ' << hit.B;
+    if (!felt) {
+      EXPECT_LT(largest, 1e-9);
+    }
   }
 }
 
-// Stone is felt and cork hardly; without the elements the dynamics looks for no hit. Either thread may move what is held.
-TEST(SceneWithKnocks, RingsByThePairOfMaterials) {
+/// The finding for a scene with these elements.
+std::string refusalOf(const std::string& elements) {
+  try {
+    test::RenderedBody(elements, R"(<box size="0.1 0.1 0.1"/>)");
+  } catch (const InputError& error) {
+    return error.diagnostics().text();
+  }
+  return {};
+}
+
+TEST(Knock, OfNoMaterialOrOfOnePairTwiceIsRefused) {
+  const std::string ring = R"( frequency="120" decay="0.02" gain="3"/>)";
+  const std::string chalk = refusalOf(R"(<knock a="any" b="chalk")" + ring);
+  EXPECT_NE(chalk.find("<knock> has b 'chalk', which does not exist"), std::string::npos) << chalk;
+  EXPECT_NE(chalk.find("materials: any, other"), std::string::npos) << chalk;
+  const std::string twice = refusalOf(R"(<knock a="any" b="other")" + ring + R"(<knock a="other" b="any")" + ring);
+  EXPECT_NE(twice.find("error[E596]"), std::string::npos) << twice;
+  EXPECT_NE(twice.find("the scene has 2 <knock> of 'any' and 'other'; one is allowed"), std::string::npos) << twice;
+}
+
+// Each of the two pairs is felt, whichever thread moves the cube; the cube moves as without the rings.
+TEST(SceneWithKnocks, RingsOnStoneAndOnCork) {
   const std::string scene = test::source("config/scenes/knocks.xml");
   for (const std::string coupling : {"soft", "haptic_rate"}) {
     const std::string set = "dynamics/coupling=" + coupling;
-    const test::LockstepRun run(scene, {set}), faint(scene, {set, "knock[1]/gain=0.1", "knock[2]/gain=0.1"});
-    EXPECT_TRUE(run.faults().empty()) << run.faults().front();
-    EXPECT_GT(run.maxNormalForce("index"), faint.maxNormalForce("index") + 0.5) << coupling;
-    EXPECT_NEAR(run.rise("cube"), faint.rise("cube"), 0.003) << coupling;
+    const test::LockstepRun faint(scene, {set, "knock[1]/gain=0.1", "knock[2]/gain=0.1"});
+    for (const std::string weak : {"knock[1]/gain=0.1", "knock[2]/gain=0.1"}) {
+      const test::LockstepRun run(scene, {set, weak});
+      EXPECT_TRUE(run.faults().empty()) << run.faults().front();
+      EXPECT_GT(run.maxNormalForce("index"), faint.maxNormalForce("index") + 0.5) << coupling << weak;
+      EXPECT_NEAR(run.rise("cube"), faint.rise("cube"), 0.003) << coupling;
+    }
   }
 }
 

@@ -90,10 +90,40 @@ TEST_F(SceneWithSounds, IsPlayedAsItHappens) {
   EXPECT_GT(strength(samplesOf(wav), 2600, loudestTime(samplesOf(wav), 2600)), 10);
 }
 
+// The file holds what is heard in the last step, however rarely the view draws.
+TEST_F(SceneWithSounds, LosesNothingToASlowView) {
+  std::size_t size = 0;
+  for (const std::string rate : {"60", "1"}) {
+    const std::string wav = folder_ + "/view" + rate + ".wav";
+    ASSERT_EQ(test::presa("run " + scene_ + " --lockstep --view none --quiet --for 1.02 --set rates/view=" + rate +
+                          " --sound " + wav)
+                  .status,
+              0);
+    const std::string text = contentsOf(wav);
+    EXPECT_GT(text.size(), 1.0 * 2 * sound::kSampleRate);
+    if (size > 0) {
+      EXPECT_EQ(text.size(), size);
+    }
+    size = text.size();
+  }
+}
+
+TEST_F(SceneWithSounds, ThatCannotBeWrittenIsAFault) {
+  const test::Outcome run = test::presa("run " + scene_ + " --lockstep --view none --quiet --for 1 --sound /dev/full");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("no sound /dev/full: it could not be written"), std::string::npos) << run.err;
+}
+
 TEST_F(SceneWithSounds, SaysWhyNothingIsHeard) {
   const test::Outcome mute = test::shell("PATH=/nowhere " + kProgram + " run " + scene_ + kAttended + "--for 0.2");
   EXPECT_NE((mute.out + mute.err).find("aplay is not on the PATH (Debian: alsa-utils)"), std::string::npos)
       << mute.out << mute.err;
+  std::ofstream(folder_ + "/aplay") << "#!/bin/sh\nexit 1\n";  // as without a sound card
+  std::filesystem::permissions(folder_ + "/aplay", std::filesystem::perms::owner_all);
+  const test::Outcome no_card =
+      test::shell("PATH='" + folder_ + "':$PATH " + kProgram + " run " + scene_ + kAttended + "--for 0.5");
+  EXPECT_NE((no_card.out + no_card.err).find("sounds were not heard: aplay ended"), std::string::npos)
+      << no_card.out << no_card.err;
   const test::Outcome cube =
       test::presa("run " + test::source("config/scenes/cube.xml") + " --lockstep --sound " + folder_ + "/cube.wav");
   EXPECT_EQ(cube.status, 2);

@@ -1,0 +1,264 @@
+#include "apps/studies/cost/shard.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/common/atomic_file.h"
+#include "apps/common/file_text.h"
+#include "apps/common/machine.h"
+#include "apps/common/version.h"
+#include "apps/studies/cost/identity.h"
+#include "apps/studies/cost/run_store.h"
+#include "framework/core/diagnostics/printable.h"
+
+namespace presa::cost {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+enum ShardCode { kNoShard = 810, kOfAnother = 811, kMissing = 812 };
+
+constexpr const char *kFile = "/shard.json", *kRuns = "/runs";
+constexpr int kFormat = 1;
+constexpr int kMostShards = 100000;
+
+std::string quoted(const std::string& text) { return "'" + printable(text) + "'"; }
+
+json toJson(const Request& request) {
+  return {{"input", request.input},        {"rig", request.rig},         {"sets", request.sets},
+          {"knobs", request.factors},      {"metrics", request.metrics}, {"for", request.duration},
+          {"seed", request.seed},          {"quick", request.quick},     {"shard", request.shard->index},
+          {"shards", request.shard->count}};
+}
+
+Request requestFrom(const json& stored) {
+  Request request;
+  request.input = stored.at("input");
+  request.rig = stored.at("rig");
+  request.sets = stored.at("sets");
+  request.factors = stored.at("knobs");
+  request.metrics = stored.at("metrics");
+  request.duration = stored.at("for");
+  request.seed = stored.at("seed");
+  request.quick = stored.at("quick");
+  request.shard = {stored.at("shard"), stored.at("shards")};
+  return request;
+}
+
+ShardFile shardFileFrom(const json& stored) {
+  if (stored.at("format") != kFormat) throw std::runtime_error("another format");
+  ShardFile file{.request = requestFrom(stored.at("request")),
+                 .study = stored.at("study"),
+                 .version = stored.at("version"),
+                 .instructions = stored.at("instructions"),
+                 .machine = stored.at("machine"),
+                 .files = stored.at("files")};
+  const Shard& shard = *file.request.shard;
+  if (shard.count < 1 || shard.index < 1 || shard.index > shard.count) throw std::runtime_error("another shard");
+  return file;
+}
+
+std::size_t filesIn(const std::string& folder) {
+  std::error_code none;
+  const fs::directory_iterator all(folder + kRuns, none);
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+/// What costs depend on: all but the load.
+std::vector<std::pair<std::string, std::string>> hardwareOf(const ShardFile& file) {
+  auto facts = file.machine;
+  std::erase_if(facts, [](const auto& fact) { return fact.first == "load average"; });
+  return facts;
+}
+
+std::string processorOf(const ShardFile& file) {
+  for (const auto& [name, value] : file.machine)
+    if (name == "processor") return value;
+  return "unknown";
+}
+
+/// How to make a shard.
+std::string commandFor(const Request& request, const Shard& shard) {
+  return "presa cost " + request.input + " … --shard " + textOf(shard);
+}
+
+class Merge {
+ public:
+  Merge(const MergeRequest& request, Diagnostics& diagnostics) : request_(request), diagnostics_(diagnostics) {}
+
+  Merged run() {
+    Merged merged;
+    if (!readAll() || !belongTogether()) return merged;
+    Request whole = shards_.front().file.request;
+    whole.shard.reset();
+    whole.out = request_.out;
+    merged.study = planStudy(whole, diagnostics_);
+    if (diagnostics_.hasErrors()) return merged;
+    identity_ = identityOf(merged.study);
+    if (identity_.study != shards_.front().file.study)
+      return refuse(kOfAnother, {whole.input, 0, 0}, "the study is not as it was when its shards were made",
+                    "undo the change, or make the shards again"),
+             merged;
+    for (const Read& shard : shards_) {
+      if (fs::weakly_canonical(shard.folder) != fs::weakly_canonical(merged.study.folder)) continue;
+      refuse(kOfAnother, {"--out " + merged.study.folder, 0, 0},
+             "is the folder of shard " + textOf(*shard.file.request.shard), "choose another with --out");
+    }
+    checkRuns(merged.study);
+    if (diagnostics_.hasErrors()) return merged;
+    merged.instructions = shards_.front().file.instructions;
+    if (!request_.mixed) merged.machine = shards_.front().file.machine;
+    copyRuns(merged.study.folder + kRuns);
+    return merged;
+  }
+
+ private:
+  struct Read {
+    std::string folder;
+    ShardFile file;
+  };
+
+  void refuse(int code, const SourceLocation& where, const std::string& what, const std::string& help) {
+    diagnostics_.error(code, where, what, help);
+  }
+
+  bool readAll() {
+    for (const std::string& folder : request_.folders) {
+      const std::string file = folder + kFile;
+      if (!fs::exists(file)) {
+        refuse(kNoShard, {folder, 0, 0}, "holds no finished shard: there is no shard.json",
+               fs::exists(folder + kRuns) ? "it was stopped; repeat its command with --resume"
+                                          : "name the folders that presa cost --shard I/N --out FOLDER wrote");
+        continue;
+      }
+      try {
+        shards_.push_back({folder, shardFileFrom(json::parse(contentsOf(file)))});
+      } catch (const std::exception&) {
+        refuse(kNoShard, {file, 0, 0}, "cannot be read as a shard: it is damaged or of another release",
+               "make the shard again");
+      }
+    }
+    return !diagnostics_.hasErrors();
+  }
+
+  bool belongTogether() {
+    const Read& first = shards_.front();
+    std::map<int, std::string> at;  // folder, by number
+    for (const Read& shard : shards_) {
+      const Shard &its = *shard.file.request.shard, &others = *first.file.request.shard;
+      const auto differs = [&](const std::string& what) {
+        refuse(kOfAnother, {shard.folder, 0, 0}, what, "merge the shards of one study");
+      };
+      if (shard.file.version != first.file.version)
+        differs("was made by Presa " + shard.file.version + ", " + first.folder + " by " + first.file.version);
+      else if (its.count != others.count)
+        differs("is shard " + textOf(its) + ", " + first.folder + " is " + textOf(others));
+      else if (shard.file.study != first.file.study || shard.file.instructions != first.file.instructions)
+        differs("is of another study than " + first.folder + ": " + shard.file.request.input +
+                (shard.file.request.input == first.file.request.input
+                     ? " with other options, or the scene changed between the two"
+                     : ", found " + first.file.request.input));
+      else if (const auto [other, is_new] = at.try_emplace(its.index, shard.folder); !is_new)
+        differs("is shard " + textOf(its) + ", which " + other->second + " is already");
+      else if (!request_.mixed && hardwareOf(shard.file) != hardwareOf(first.file))
+        refuse(kOfAnother, {shard.folder, 0, 0},
+               "was measured on another machine than " + first.folder + ": " + processorOf(shard.file) + ", and " +
+                   processorOf(first.file),
+               "--mixed takes the errors of all shards and measures all costs on this machine");
+    }
+    if (diagnostics_.hasErrors()) return false;
+    for (int i = 1; i <= first.file.request.shard->count; ++i) {
+      if (at.contains(i)) continue;
+      const Shard missing{i, first.file.request.shard->count};
+      refuse(kMissing, {"shard " + textOf(missing), 0, 0}, "is missing",
+             "name its folder, or make it: " + commandFor(first.file.request, missing));
+    }
+    return !diagnostics_.hasErrors();
+  }
+
+  RunStore storeOf(const Read& shard) const { return {shard.folder + kRuns, identity_.common}; }
+
+  /// Every run of every shard is there and can be read.
+  void checkRuns(const Study& study) {
+    for (const Read& shard : shards_) {
+      const Shard& its = *shard.file.request.shard;
+      try {
+        if (filesIn(shard.folder) != shard.file.files) throw std::runtime_error("a file is lost");
+        for (std::size_t i = 0; i < study.settings.size(); ++i) {
+          const Setting& setting = study.settings[i];
+          if (!its.holds(i) || !setting.impossible.empty()) continue;
+          storeOf(shard).evidence(setting.scene_hash, true);
+          const bool timed = storeOf(shard).evidence(setting.scene_hash, false).failure.empty();
+          for (int repeat = 0; timed && repeat < study.repeats; ++repeat)
+            if (storeOf(shard).hasTiming(setting.scene_hash, repeat)) storeOf(shard).timing(setting.scene_hash, repeat);
+        }
+        for (std::size_t level = 0; level < std::min(kFirstLevels, identity_.levels.size()); ++level)
+          if (its.holds(level)) storeOf(shard).evidence(identity_.levels[level], true);
+      } catch (const std::exception&) {
+        refuse(kNoShard, {shard.folder, 0, 0},
+               "is damaged: a run of shard " + textOf(its) + " is lost or cannot be read",
+               "make it again: " + commandFor(shard.file.request, its));
+      }
+    }
+  }
+
+  void copyRuns(const std::string& to) {
+    fs::remove_all(to);
+    fs::create_directories(to);
+    for (const Read& shard : shards_) {
+      for (const auto& entry : fs::directory_iterator(shard.folder + kRuns)) {
+        const std::string name = entry.path().filename().string();
+        const bool cost = name.find(".time") != std::string::npos;
+        if (!(cost && request_.mixed))
+          fs::copy_file(entry.path(), to + "/" + name, fs::copy_options::overwrite_existing);
+      }
+    }
+  }
+
+  const MergeRequest& request_;
+  Diagnostics& diagnostics_;
+  std::vector<Read> shards_;
+  Identity identity_;
+};
+
+}  // namespace
+
+std::string textOf(const Shard& shard) { return std::to_string(shard.index) + "/" + std::to_string(shard.count); }
+
+std::string shardTrouble(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  const bool slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
+  const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  const bool good = slash && count.ec == std::errc() && count.ptr == end && shard.index >= 1 &&
+                    shard.index <= shard.count && shard.count <= kMostShards;
+  return good ? "" : "expects I/N with I from 1 to N, as 2/8, found " + quoted(text);
+}
+
+Shard shardFrom(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  return {std::stoi(text.substr(0, slash)), std::stoi(text.substr(slash + 1))};
+}
+
+void writeShardFile(const Study& study, const Request& request, bool instructions) {
+  Request absolute = request;  // the merge may run in another folder
+  absolute.input = fs::absolute(request.input).lexically_normal().string();
+  if (!request.rig.empty()) absolute.rig = fs::absolute(request.rig).lexically_normal().string();
+  const json all{{"format", kFormat},
+                 {"version", versionText()},
+                 {"study", identityOf(study).study},
+                 {"instructions", instructions},
+                 {"machine", machineFacts()},
+                 {"files", filesIn(study.folder)},
+                 {"request", toJson(absolute)}};
+  writeFileAtomically(study.folder + kFile, all.dump(1) + "\n");
+}
+
+Merged mergeShards(const MergeRequest& request, Diagnostics& diagnostics) { return Merge(request, diagnostics).run(); }
+
+}  // namespace presa::cost

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/studies/cost/plan.h"
+
+namespace presa::cost {
+
+/// What `presa cost STUDY --shard I/N` leaves in its folder beside the runs, for the merge.
+struct ShardFile {
+  Request request;                                           ///< of the study; its paths are absolute
+  std::uint64_t study = 0;                                   ///< Identity::study
+  std::string version;                                       ///< of Presa
+  bool instructions = false;                                 ///< instructions were counted
+  std::vector<std::pair<std::string, std::string>> machine;  ///< machineFacts()
+  std::size_t files = 0;                                     ///< that hold its runs
+};
+
+/// "" for I/N with 1 <= I <= N, else what is wrong.
+std::string shardTrouble(const std::string& text);
+/// Of a text without trouble.
+Shard shardFrom(const std::string& text);
+/// "2/8"
+std::string textOf(const Shard& shard);
+
+/// Writes the file of a shard whose runs are done; a folder without it holds no finished shard.
+void writeShardFile(const Study& study, const Request& request, bool instructions);
+
+struct MergeRequest {
+  std::vector<std::string> folders;  ///< of the shards
+  std::string out;                   ///< folder of the merged study; empty: cost_NAME
+  bool mixed = false;                ///< shards of several machines: their costs are left out, and measured here
+};
+
+/// A study whose runs lie in its folder.
+struct Merged {
+  Study study;
+  bool instructions = false;                                 ///< they were counted
+  std::vector<std::pair<std::string, std::string>> machine;  ///< that all costs come from; empty: to be measured here
+};
+
+/// Brings the runs of all shards of one study together in its folder. Errors, all at once and before anything is
+/// written: E810 no shard or a damaged one, E811 shards that do not belong together, E812 a shard is missing. The
+/// result is unusable if there are any.
+Merged mergeShards(const MergeRequest& request, Diagnostics& diagnostics);
+
+}  // namespace presa::cost

@@ -1,0 +1,100 @@
+// A study on a real Slurm cluster of one node: merged it is the whole study to the bit, although a task is killed on the
+// way; a shard that never finishes, and no cluster.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "apps/common/file_text.h"
+#include "tests/apps/presa/support.h"
+#include "tests/apps/studies/cost/shard_support.h"
+
+namespace presa {
+namespace {
+
+using test::accuracyOf;
+using test::kStudy;
+using test::shell;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kProgram = PRESA_BINARY_DIR "/bin/presa";
+const std::string kCluster = "bash " + test::source("tests/support/slurm.sh");
+
+/// The cluster of these tests.
+class Slurm : public testing::Test {
+ protected:
+  Slurm() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    const auto started = shell(kCluster + " start " + folder_ + "/cluster");
+    runs_ = started.status == 0;
+    why_ = started.out + started.err;
+    setenv("SLURM_CONF", (folder_ + "/cluster/slurm.conf").c_str(), 1);
+  }
+  ~Slurm() override {
+    shell(kCluster + " stop " + folder_ + "/cluster");
+    unsetenv("SLURM_CONF");
+    fs::remove_all(folder_);
+  }
+  std::string in(const std::string& name) const { return folder_ + "/" + name; }
+  nlohmann::json read(const std::string& file) const { return nlohmann::json::parse(contentsOf(in(file))); }
+  /// The study in three shards, of which number 2 is killed once while it runs.
+  test::Outcome submitAndKill(const std::string& study, const std::string& more) const {
+    const std::string kill =
+        "while ! [ -d " + in("merged/shards/2/runs") + " ]; do sleep 0.02; done; " +
+        "scancel --signal=KILL --full $(squeue --noheader --array --format='%i %K' | awk '$2 == 2 {print $1}')";
+    return shell("(" + kill + ") & " + kProgram + " " + study + more + " --slurm --tasks 3 --out " + in("merged"));
+  }
+  static std::string submitted(const std::string& study) { return "cost submit" + study.substr(4); }
+
+  const std::string folder_ = testing::TempDir() + "presa_slurm_" + std::to_string(getpid());
+  bool runs_ = false;
+  std::string why_;
+};
+
+TEST_F(Slurm, MakesTheStudyAlthoughATaskIsKilled) {
+  if (!runs_) GTEST_SKIP() << why_;
+  const std::string study = kStudy + ",averaged";
+  ASSERT_EQ(test::presa(study + " --out " + in("whole")).status, 0);
+  const auto outcome = submitAndKill(submitted(study), "");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(accuracyOf(read("whole/cost.json")), accuracyOf(read("merged/cost.json")));
+  EXPECT_THAT(outcome.out, HasSubstr("None of the "));
+  EXPECT_THAT(contentsOf(in("merged/shards/tasks.sh")), HasSubstr("#SBATCH --job-name=presa_cost_cube"));
+}
+
+TEST_F(Slurm, SaysWhichShardNeverFinished) {
+  if (!runs_) GTEST_SKIP() << why_;
+  const auto outcome = submitAndKill(submitted(kStudy), " --retries 0");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("shard 2/3: error[E814]: never finished, after 1 attempt"));
+  EXPECT_THAT(outcome.err, HasSubstr("merged/shards/task_2.log"));
+  // what was done is kept
+  const auto again = shell(kProgram + " " + submitted(kStudy) + " --slurm --tasks 3 --resume --out " + in("merged"));
+  EXPECT_EQ(again.status, 0) << again.err;
+}
+
+TEST_F(Slurm, ThatRefusesTheJobIsQuoted) {
+  if (!runs_) GTEST_SKIP() << why_;
+  const auto outcome =
+      shell(kProgram + " " + submitted(kStudy) + " --slurm --sbatch=--partition=none --out " + in("merged"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("error[E813]: Slurm refuses the job: "));
+  EXPECT_THAT(outcome.err, HasSubstr("invalid partition"));
+}
+
+TEST(NoSlurm, IsSaidBeforeAnyWork) {
+  const std::string out = test::scratch("nowhere");
+  const auto outcome = shell("PATH=/nowhere " + kProgram + " cost submit" + kStudy.substr(4) + " --slurm --out " + out);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("error[E813]: no job can be submitted from here: sbatch is not on the PATH"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace presa
