@@ -46,6 +46,12 @@ bool defaultUnfelt(const Result& result, const std::vector<std::string>& names) 
   });
 }
 
+/// Whether somebody feels an error of the setting, judged or not.
+bool feltAnywhere(const Result& result, std::size_t index) {
+  return std::any_of(result.metrics.begin(), result.metrics.end(),
+                     [&](const std::string& name) { return felt(result, name, index); });
+}
+
 /// How much the setting gains over the default, as a sum of logarithms; no value when it may not replace it.
 std::optional<double> gainOf(const Result& result, std::size_t index) {
   double sum = 0;
@@ -113,7 +119,11 @@ void addUnfelt(const Result& result, Verdict& verdict) {
   if (!known) return;
   const auto found = cheapestUnfelt(result);
   if (!found) {
-    verdict.details.emplace_back("Every setting has an error that can be felt.");
+    std::vector<std::string> of_default;
+    for (const std::string& metric : result.metrics)
+      if (felt(result, metric, 0)) of_default.push_back(titleOf(metric));
+    verdict.details.push_back("Every setting has an error that can be felt" +
+                              (of_default.empty() ? "" : "; the default's is in " + listed(of_default)) + ".");
     return;
   }
   const Outcome &cheapest = result.outcomes[*found], &usual = result.outcomes.front();
@@ -174,8 +184,10 @@ Verdict verdictOf(const Result& result) {
     const std::size_t better = *verdict.better;
     verdict.kind = Verdict::Kind::kBeaten;
     verdict.unfelt = defaultUnfelt(result, names);
+    const bool others = feltAnywhere(result, 0) || feltAnywhere(result, better);
     verdict.headline = "The default is beaten by " + result.outcomes[better].setting.name +
-                       (verdict.unfelt ? ", but nobody feels the errors of either" : "");
+                       (verdict.unfelt ? ", but nobody feels the errors of either" : "") +
+                       (verdict.unfelt && others ? judged_in : "");
     verdict.details.push_back("It has " + gainText(result, better) + ".");
     if (const std::string prices = pricesOf(result, better); !prices.empty())
       verdict.details.push_back("It is worse than the default in errors that this study does not judge: " + prices +
