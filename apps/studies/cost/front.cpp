@@ -83,16 +83,20 @@ std::optional<std::size_t> cheapestBelow(const Result& result, const std::string
   return best ? std::optional(best->index) : std::nullopt;
 }
 
+bool isUnfelt(const Result& result, std::size_t index) {
+  const Outcome& outcome = result.outcomes[index];
+  return std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
+    const auto limit = result.reference.noticeable.find(metric);
+    if (limit == result.reference.noticeable.end()) return true;
+    return outcome.error.contains(metric) && result.claimed(outcome, metric) < limit->second;
+  });
+}
+
 std::optional<std::size_t> cheapestUnfelt(const Result& result) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
     const Outcome& outcome = result.outcomes[i];
-    const bool unfelt = std::all_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
-      const auto limit = result.reference.noticeable.find(metric);
-      if (limit == result.reference.noticeable.end()) return true;
-      return outcome.error.contains(metric) && result.claimed(outcome, metric) < limit->second;
-    });
-    if (!unfelt || !outcome.failure.empty() || !outcome.timed()) continue;
+    if (!isUnfelt(result, i) || !outcome.failure.empty() || !outcome.timed()) continue;
     if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;
   }
   return best;

@@ -49,6 +49,10 @@ struct FrontDistance {
 /// No value when the default has no error or cost in this metric.
 std::optional<FrontDistance> distanceToFront(const Result& result, const std::string& metric);
 
+/// Whether nobody feels an error of the setting, judged or not, where it is known what people feel; an error that is not
+/// known counts as felt.
+bool isUnfelt(const Result& result, std::size_t index);
+
 /// Index of the cheapest setting, of any engine, whose error is below `limit`.
 std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit);
 /// Index of the cheapest setting below the just-noticeable difference in every metric that has one.

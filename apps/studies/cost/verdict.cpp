@@ -46,12 +46,6 @@ bool defaultUnfelt(const Result& result, const std::vector<std::string>& names) 
   });
 }
 
-/// Whether somebody feels an error of the setting, judged or not.
-bool feltAnywhere(const Result& result, std::size_t index) {
-  return std::any_of(result.metrics.begin(), result.metrics.end(),
-                     [&](const std::string& name) { return felt(result, name, index); });
-}
-
 /// How much the setting gains over the default, as a sum of logarithms; no value when it may not replace it.
 std::optional<double> gainOf(const Result& result, std::size_t index) {
   double sum = 0;
@@ -122,7 +116,7 @@ void addUnfelt(const Result& result, Verdict& verdict) {
     std::vector<std::string> of_default;
     for (const std::string& metric : result.metrics)
       if (felt(result, metric, 0)) of_default.push_back(titleOf(metric));
-    verdict.details.push_back("Every setting has an error that can be felt" +
+    verdict.details.push_back("No setting is known to be free of errors that can be felt" +
                               (of_default.empty() ? "" : "; the default's is in " + listed(of_default)) + ".");
     return;
   }
@@ -184,7 +178,7 @@ Verdict verdictOf(const Result& result) {
     const std::size_t better = *verdict.better;
     verdict.kind = Verdict::Kind::kBeaten;
     verdict.unfelt = defaultUnfelt(result, names);
-    const bool others = feltAnywhere(result, 0) || feltAnywhere(result, better);
+    const bool others = !isUnfelt(result, 0) || !isUnfelt(result, better);
     verdict.headline = "The default is beaten by " + result.outcomes[better].setting.name +
                        (verdict.unfelt ? ", but nobody feels the errors of either" : "") +
                        (verdict.unfelt && others ? judged_in : "");
@@ -203,8 +197,11 @@ Verdict verdictOf(const Result& result) {
     verdict.details.push_back("What beats it, by less than that: " + listed(beatenIn(result, names, 1)) + ".");
   } else {
     verdict.kind = Verdict::Kind::kTradeOff;
-    verdict.headline = "The default is beaten in one error, but by no setting in all";
-    verdict.details.push_back("Beyond 1.3 times: " + listed(beatenIn(result, names, kNearFront)) +
+    const std::vector<std::string> beaten = beatenIn(result, names, kNearFront);
+    verdict.headline = "The default is beaten in " +
+                       (beaten.size() == 1 ? "one error" : std::to_string(beaten.size()) + " errors") +
+                       ", but by no setting in all";
+    verdict.details.push_back("Beyond 1.3 times: " + listed(beaten) +
                               ". Each is worse than the default in another error that is judged, or its error can be "
                               "felt where that of the default cannot.");
   }
