@@ -1,5 +1,6 @@
 #include "apps/studies/cost/evidence.h"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -138,6 +139,12 @@ Timing timingFrom(const nlohmann::json& json) {
         {g.at("name"), g.at("period_s"), g.at("ticks"), g.at("mean_s"), g.at("median_s"), g.at("p999_s")});
   }
   return timing;
+}
+
+double Timing::busiestTick() const {
+  double busiest = 0;
+  for (const Group& group : groups) busiest = std::max(busiest, group.p999 / group.period);
+  return busiest;
 }
 
 }  // namespace presa::cost

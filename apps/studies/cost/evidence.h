@@ -26,6 +26,9 @@ struct Timing {
   double load = 0;          ///< from reading the files to the first tick [s]
   double memory = 0;        ///< growth of the process [B]
   double instructions = 0;  ///< per simulated second; 0: not counted
+
+  /// 99.9 % of the ticks of the busiest rate group cost less than this part of its period [-].
+  double busiestTick() const;
 };
 
 nlohmann::json toJson(const Timing& timing);

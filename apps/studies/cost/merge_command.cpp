@@ -39,7 +39,7 @@ void addMerge(Command cost, const std::shared_ptr<bool>& chosen, int& status) {
       cost.command("merge", "Bring the shards of a study together: the same report as of the whole study");
   command.option("FOLDER", a->request.folders, "folders that presa cost --shard I/N wrote, one for each I").required();
   command.option("--out", a->request.out,
-                 "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
+                 "folder for report.html, front.svg, cost.csv, runs.csv and cost.json (default: cost_NAME)");
   command.flag("--mixed", a->request.mixed,
                "take shards of several machines: their errors; all costs are measured again, on this machine");
   command.option("--apply", a->apply, "as of presa cost");

@@ -38,11 +38,7 @@ Spread Outcome::perSecond() const {
   return spread(timings, [](const Timing& t) { return t.per_second; });
 }
 Spread Outcome::busiestTick() const {
-  return spread(timings, [](const Timing& t) {
-    double busiest = 0;
-    for (const Timing::Group& group : t.groups) busiest = std::max(busiest, group.p999 / group.period);
-    return busiest;
-  });
+  return spread(timings, [](const Timing& t) { return t.busiestTick(); });
 }
 Spread Outcome::load() const {
   return spread(timings, [](const Timing& t) { return t.load; });

@@ -26,7 +26,7 @@ void addStudyOptions(Command command, const std::shared_ptr<Arguments>& a) {
       .oneValueEach();
   command.option("--metric", a->request.metrics, "error to show (default: all that the scene has)").oneValueEach();
   command.option("--out", a->request.out,
-                 "folder for report.html, front.svg, cost.csv and cost.json (default: cost_NAME)");
+                 "folder for report.html, front.svg, cost.csv, runs.csv and cost.json (default: cost_NAME)");
   command.option("--apply", a->apply,
                  "where a setting beats the default in all that the study judges: write the scene with its values to "
                  "FILE,\n"
@@ -83,6 +83,7 @@ int writeResults(const Result& result, const std::string& apply) {
   const std::string& folder = result.study.folder;
   writeFileAtomically(folder + "/cost.json", toJsonText(result));
   writeFileAtomically(folder + "/cost.csv", toCsv(result));
+  writeFileAtomically(folder + "/runs.csv", toRunsCsv(result));
   writeFileAtomically(folder + "/report.html", reportHtml(result));
   if (const std::string picture = frontPicture(result); !picture.empty())
     writeFileAtomically(folder + "/front.svg", picture);

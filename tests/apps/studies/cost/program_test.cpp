@@ -75,6 +75,11 @@ TEST(Cost, WritesWhatItPromises) {
   }
   const std::string csv = contentsOf(out + "/cost.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  const std::string runs = contentsOf(out + "/runs.csv");
+  EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 4 * 5);
+  EXPECT_EQ(
+      runs.substr(0, runs.find('\n')),
+      "setting,\"dynamics_rate\",\"coupling\",repeat,cpu_ms_per_s,busiest_tick_of_period,load_ms,memory_MB,processor");
   EXPECT_NE(contentsOf(out + "/report.html").find("In words"), std::string::npos);
 }
 
