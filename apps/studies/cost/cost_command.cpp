@@ -63,9 +63,9 @@ void addCost(Command app, int& status) {
       .positive();
   command
       .each(
-          "--shard", [a](const std::string& text) { a->request.shard = cost::shardFrom(text); },
+          "--shard", [a](const std::string& text) { a->request.shard = cluster::shardFrom(text); },
           "make the runs of one of N parts of the study; presa cost merge brings all N together")
-      .checked(cost::shardTrouble, "I/N");
+      .checked(cluster::shardTrouble, "I/N");
   command.flag("--resume", a->resume, "keep the runs that an interrupted study has made");
   command.footer(
       "Exit status: 0 done, 1 the reference could not be run, 2 bad input (nothing was run), 130 Ctrl-C (kept for "

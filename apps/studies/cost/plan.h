@@ -3,16 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/cluster/shard.h"
 #include "apps/studies/cost/study.h"
 
 namespace presa::cost {
 
-/// One of `count` parts of a study, each made by a process of its own, perhaps on another machine.
-struct Shard {
-  int index = 1, count = 1;  ///< 1 <= index <= count
-  /// Whether it makes the runs of that setting, or of that level of the reference.
-  bool holds(std::size_t i) const { return i % static_cast<std::size_t>(count) + 1 == static_cast<std::size_t>(index); }
-};
+using cluster::Shard;
 
 /// The command line's request.
 struct Request {

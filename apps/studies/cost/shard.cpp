@@ -1,18 +1,16 @@
 #include "apps/studies/cost/shard.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/cluster/shard_set.h"
 #include "apps/common/file_text.h"
 #include "apps/common/machine.h"
 #include "apps/common/version.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/run_store.h"
-#include "framework/core/diagnostics/printable.h"
 
 namespace presa::cost {
 namespace {
@@ -20,13 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-enum ShardCode { kNoShard = 810, kOfAnother = 811, kMissing = 812 };
+enum ShardCode { kNoShard = 810, kOfAnother = 811 };
 
 constexpr const char *kFile = "/shard.json", *kRuns = "/runs";
 constexpr int kFormat = 1;
-constexpr int kMostShards = 100000;
-
-std::string quoted(const std::string& text) { return "'" + printable(text) + "'"; }
 
 json toJson(const Request& request) {
   return {{"input", request.input},        {"rig", request.rig},         {"sets", request.sets},
@@ -146,36 +141,19 @@ class Merge {
   }
 
   bool belongTogether() {
+    std::vector<cluster::ShardHead> heads;
+    for (const Read& shard : shards_)
+      heads.push_back({shard.folder, *shard.file.request.shard, shard.file.version,
+                       std::to_string(shard.file.study) + (shard.file.instructions ? " counted" : "")});
     const Read& first = shards_.front();
-    std::map<int, std::string> at;  // folder, by number
+    const auto command = [&](const Shard& shard) { return commandFor(first.file.request, shard); };
+    if (!cluster::areWhole(heads, command, diagnostics_)) return false;
     for (const Read& shard : shards_) {
-      const Shard &its = *shard.file.request.shard, &others = *first.file.request.shard;
-      const auto differs = [&](const std::string& what) {
-        refuse(kOfAnother, {shard.folder, 0, 0}, what, "merge the shards of one study");
-      };
-      if (shard.file.version != first.file.version)
-        differs("was made by Presa " + shard.file.version + ", " + first.folder + " by " + first.file.version);
-      else if (its.count != others.count)
-        differs("is shard " + textOf(its) + ", " + first.folder + " is " + textOf(others));
-      else if (shard.file.study != first.file.study || shard.file.instructions != first.file.instructions)
-        differs("is of another study than " + first.folder + ": " + shard.file.request.input +
-                (shard.file.request.input == first.file.request.input
-                     ? " with other options, or the scene changed between the two"
-                     : ", found " + first.file.request.input));
-      else if (const auto [other, is_new] = at.try_emplace(its.index, shard.folder); !is_new)
-        differs("is shard " + textOf(its) + ", which " + other->second + " is already");
-      else if (!request_.mixed && hardwareOf(shard.file) != hardwareOf(first.file))
-        refuse(kOfAnother, {shard.folder, 0, 0},
-               "was measured on another machine than " + first.folder + ": " + processorOf(shard.file) + ", and " +
-                   processorOf(first.file),
-               "--mixed takes the errors of all shards and measures all costs on this machine");
-    }
-    if (diagnostics_.hasErrors()) return false;
-    for (int i = 1; i <= first.file.request.shard->count; ++i) {
-      if (at.contains(i)) continue;
-      const Shard missing{i, first.file.request.shard->count};
-      refuse(kMissing, {"shard " + textOf(missing), 0, 0}, "is missing",
-             "name its folder, or make it: " + commandFor(first.file.request, missing));
+      if (request_.mixed || hardwareOf(shard.file) == hardwareOf(first.file)) continue;
+      refuse(kOfAnother, {shard.folder, 0, 0},
+             "was measured on another machine than " + first.folder + ": " + processorOf(shard.file) + ", and " +
+                 processorOf(first.file),
+             "--mixed takes the errors of all shards and measures all costs on this machine");
     }
     return !diagnostics_.hasErrors();
   }
@@ -226,24 +204,6 @@ class Merge {
 };
 
 }  // namespace
-
-std::string textOf(const Shard& shard) { return std::to_string(shard.index) + "/" + std::to_string(shard.count); }
-
-std::string shardTrouble(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto index = std::from_chars(text.data(), end, shard.index);
-  const bool slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
-  const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
-  const bool good = slash && count.ec == std::errc() && count.ptr == end && shard.index >= 1 &&
-                    shard.index <= shard.count && shard.count <= kMostShards;
-  return good ? "" : "expects I/N with I from 1 to N, as 2/8, found " + quoted(text);
-}
-
-Shard shardFrom(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  return {std::stoi(text.substr(0, slash)), std::stoi(text.substr(slash + 1))};
-}
 
 void writeShardFile(const Study& study, const Request& request, bool instructions) {
   Request absolute = request;  // the merge may run in another folder

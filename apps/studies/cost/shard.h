@@ -18,13 +18,6 @@ struct ShardFile {
   std::size_t files = 0;                                     ///< that hold its runs
 };
 
-/// "" for I/N with 1 <= I <= N, else what is wrong.
-std::string shardTrouble(const std::string& text);
-/// Of a text without trouble.
-Shard shardFrom(const std::string& text);
-/// "2/8"
-std::string textOf(const Shard& shard);
-
 /// Writes the file of a shard whose runs are done; a folder without it holds no finished shard.
 void writeShardFile(const Study& study, const Request& request, bool instructions);
 

@@ -49,7 +49,7 @@ slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study) {
   Diagnostics diagnostics;
   for (const int part : failed) {
     diagnostics.error(
-        kShardsFailed, {"shard " + textOf({part, array.parts}), 0, 0},
+        kShardsFailed, {"shard " + textOf(Shard{part, array.parts}), 0, 0},
         "never finished, after " + std::to_string(array.retries + 1) + (array.retries == 0 ? " attempt" : " attempts"),
         "its output is in " + slurm::logOf(array, part) + "; --resume keeps all that was done");
   }

@@ -9,13 +9,17 @@
 #include "apps/common/atomic_file.h"
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/job_progress.h"
+#include "apps/studies/stability/parts.h"
 #include "apps/studies/stability/report.h"
 #include "apps/studies/stability/rows.h"
 #include "apps/studies/stability/table.h"
 #include "experiments/study/jobs.h"
+#include "framework/core/diagnostics/refuse.h"
 
 namespace presa::stability {
 namespace {
+
+enum RunnerCode { kOtherCases = 811 };
 
 constexpr double kTrialLimit = 300;  // [s]
 
@@ -107,6 +111,48 @@ std::string asLines(const std::vector<Row>& rows) {
   return lines;
 }
 
+/// Name of each trial, for shards to compare.
+std::vector<std::string> namesOf(const std::vector<Job>& jobs) {
+  std::vector<std::string> names;
+  for (const Job& job : jobs) {
+    std::string name = job.of->name + " " + job.trial->method;
+    for (const auto& [parameter, value] : job.trial->parameters) name += " " + parameter + "=" + value;
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+/// Runs the trials of the shard, or all; the others are kNotRun.
+Results runTrials(const std::vector<Job>& jobs, const RunnerOptions& options, bool& interrupted) {
+  std::vector<std::size_t> own;
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    if (!options.shard || options.shard->holds(i)) own.push_back(i);
+  terminal::JobProgress progress(own.size());
+  JobOptions job_options;
+  job_options.workers = options.jobs;
+  job_options.time_limit = kTrialLimit;
+  job_options.stop = [&] { return progress.interrupted(); };
+  job_options.on_wait = [&] { progress.show(); };
+  job_options.on_done = [&](std::size_t i, const JobResult&) { progress.done(jobs[own[i]].of->name); };
+  const auto ran = runJobs(
+      own.size(), [&](std::size_t i) { return packFindings(jobs[own[i]].trial->run()); }, job_options);
+  progress.finish();
+  interrupted = progress.interrupted();
+  Results results(jobs.size());
+  for (std::size_t i = 0; i < own.size(); ++i) results[own[i]] = ran[i];
+  return results;
+}
+
+/// Writes and prints the rows; returns the exit status.
+int tell(const RunnerOptions& options, const std::vector<Case>& cases, const std::vector<Row>& rows) {
+  if (!options.out.empty()) {
+    writeFileAtomically(options.out + "/rows.jsonl", asLines(rows));
+    writeFileAtomically(options.out + "/report.html", reportHtml(cases, rows));
+  }
+  std::fputs(options.format == "json" ? asLines(rows).c_str() : tableText(cases, rows, options.out).c_str(), stdout);
+  return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.worse(); }) ? kExitFault : kExitOk;
+}
+
 }  // namespace
 
 int runCases(const RunnerOptions& options, std::vector<Case> all) {
@@ -117,25 +163,32 @@ int runCases(const RunnerOptions& options, std::vector<Case> all) {
   }
   for (const Case& c : cases) sceneFile(c.scene);  // E615 says now what would fail every trial
   const std::vector<Job> jobs = jobsOf(cases, options.quick);
-  terminal::JobProgress progress(jobs.size());
-  JobOptions job_options;
-  job_options.workers = options.jobs;
-  job_options.time_limit = kTrialLimit;
-  job_options.stop = [&] { return progress.interrupted(); };
-  job_options.on_wait = [&] { progress.show(); };
-  job_options.on_done = [&](std::size_t i, const JobResult&) { progress.done(jobs[i].of->name); };
-  const auto results = runJobs(
-      jobs.size(), [&](std::size_t i) { return packFindings(jobs[i].trial->run()); }, job_options);
-  progress.finish();
-
-  const std::vector<Row> rows = rowsOf(jobs, results);
-  if (!options.out.empty()) {
-    writeFileAtomically(options.out + "/rows.jsonl", asLines(rows));
-    writeFileAtomically(options.out + "/report.html", reportHtml(cases, rows));
+  bool interrupted = false;
+  const Results results = runTrials(jobs, options, interrupted);
+  if (options.shard) {
+    if (interrupted) return kExitInterrupted;
+    writePart(options.out, options, namesOf(jobs), results);
+    std::printf("Shard %s. When all shards are there: presa stability merge FOLDER…\n%s\n",
+                cluster::textOf(*options.shard).c_str(), options.out.c_str());
+    return kExitOk;
   }
-  std::fputs(options.format == "json" ? asLines(rows).c_str() : tableText(cases, rows, options.out).c_str(), stdout);
-  if (progress.interrupted()) return kExitInterrupted;
-  return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.worse(); }) ? kExitFault : kExitOk;
+  const int status = tell(options, cases, rowsOf(jobs, results));
+  return interrupted ? kExitInterrupted : status;
+}
+
+int mergeCases(const std::vector<std::string>& folders, const RunnerOptions& options, std::vector<Case> all) {
+  Diagnostics diagnostics;
+  Parts parts = readParts(folders, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
+  parts.options.out = options.out;
+  parts.options.format = options.format;
+  const std::vector<Case> cases = chosenCases(parts.options, std::move(all));
+  const std::vector<Job> jobs = jobsOf(cases, parts.options.quick);
+  if (workOf(namesOf(jobs)) != parts.work)
+    refuse(kOtherCases, folders.front(), "was made with other cases than this release has", "make the shards again");
+  Results results(jobs.size());
+  for (auto& [trial, result] : parts.results) results.at(trial) = std::move(result);
+  return tell(parts.options, cases, rowsOf(jobs, results));
 }
 
 }  // namespace presa::stability

@@ -110,7 +110,7 @@ TEST_F(Shards, OfOtherStudiesAreRefused) {
   ASSERT_EQ(presa(kStudy + ",averaged --shard 2/2 --out " + in("part_2")).status, 0);
   expectRefused("12", "E811", "is of another study than");
   ASSERT_EQ(presa(kStudy + " --shard 2/4 --out " + in("part_3")).status, 0);
-  expectRefused("13", "E811", "is shard 2/4,");
+  expectRefused("13", "E811", "is shard 2/4, ");
   json other = read("part_5/shard.json");
   other["version"] = "0.1";
   fs::copy(in("part_5"), in("part_4"), fs::copy_options::recursive);
