@@ -32,10 +32,13 @@ int writeAll(int file, const std::string& text) {
 
 /// A device, a pipe or /dev/stdout is written to; a rename would replace it.
 bool isStream(const std::string& path) {
-  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  if (std::filesystem::is_regular_file(status)) {  // an open file of this process, as /dev/stdout may be
+    const std::string link = std::filesystem::read_symlink(path, none).string();
+    return path.starts_with("/dev/fd/") || link.starts_with("/proc/self/fd/");
+  }
+  return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
 }
 
 void writeStream(const std::string& path, const std::string& text) {

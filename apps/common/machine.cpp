@@ -57,6 +57,13 @@ std::vector<std::pair<std::string, std::string>> machineFacts() {
           {"Presa", versionText()}};
 }
 
+std::string hardwareText() {
+  std::string text;
+  for (const auto& [name, value] : machineFacts())
+    if (name != "load average") text += (text.empty() ? "" : "; ") + value;
+  return text;
+}
+
 std::string utcNow() { return now("%Y-%m-%dT%H:%M:%SZ", ::gmtime_r); }
 
 std::string localNow() { return now("%Y-%m-%d %H:%M:%S %z", ::localtime_r); }

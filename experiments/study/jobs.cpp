@@ -82,6 +82,7 @@ JobResult finish(Running& job, bool stopped) {
   } else if (WIFSIGNALED(status)) {
     result.outcome = JobResult::Outcome::kCrashed;
     result.text = ::strsignal(WTERMSIG(status));
+    result.killed = WTERMSIG(status) == SIGKILL;
   } else if (WEXITSTATUS(status) == kThrewStatus) {
     result.outcome = JobResult::Outcome::kThrew;
   } else if (WEXITSTATUS(status) != 0) {

@@ -10,8 +10,9 @@ namespace presa {
 struct JobResult {
   enum class Outcome { kDone, kThrew, kCrashed, kTimedOut, kNotRun };
   Outcome outcome = Outcome::kNotRun;
-  std::string text;    ///< the return value; the message for kThrew, the signal name for kCrashed
-  double seconds = 0;  ///< wall time
+  bool killed = false;  ///< by SIGKILL from outside, such as for want of memory
+  std::string text;     ///< the return value; the message for kThrew, the signal name for kCrashed
+  double seconds = 0;   ///< wall time
   double cpu_seconds = 0;
 };
 

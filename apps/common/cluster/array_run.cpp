@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <thread>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/cluster/slurm.h"
-#include "apps/common/shell.h"
 #include "apps/common/terminal/job_progress.h"
 
 namespace presa::slurm {
@@ -15,7 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPoll = std::chrono::milliseconds(500);
+constexpr auto kPoll = std::chrono::milliseconds(500);       // of few parts
+constexpr auto kPollOfPart = std::chrono::milliseconds(10);  // of many, for each: Slurm's controller serves others, too
+constexpr auto kLongestPoll = std::chrono::seconds(15);
 // between the end of a task and its last file on the disk of this machine
 constexpr auto kPatience = std::chrono::seconds(5);
 
@@ -29,7 +31,7 @@ class Follow {
     for (const int part : parts_) tries_[part] = 0;
     std::vector<int> open = parts_;
     while (!open.empty() && !end_.interrupted) {
-      const std::string array = submit(script_, open, run_.options);
+      const std::string array = submit({script_, run_.name, run_.folder + "/task_", open, run_.options});
       std::vector<int> lost = follow(array, open);
       open.clear();
       for (const int part : lost) (tries_[part]++ < run_.retries ? open : end_.failed).push_back(part);
@@ -39,10 +41,15 @@ class Follow {
   }
 
  private:
+  /// Until then, or Ctrl-C.
+  void sleep(Clock::duration time) {
+    for (const auto end = Clock::now() + time; Clock::now() < end && !terminal::JobProgress::interrupted();)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   void writeScript() const {
-    std::string script = "#!/bin/bash\n#SBATCH --job-name=" + run_.name + "\n#SBATCH --output=" + run_.folder +
-                         "/task_%a.log\n#SBATCH --open-mode=append\n";
-    writeFileAtomically(script_, script + "exec " + run_.command("$SLURM_ARRAY_TASK_ID") + "\n");
+    writeFileAtomically(
+        script_, "#!/bin/bash\necho \"part $SLURM_ARRAY_TASK_ID, job $SLURM_ARRAY_JOB_ID, on $(hostname)\"\nexec " +
+                     run_.command("$SLURM_ARRAY_TASK_ID") + "\n");
   }
 
   /// Until none of these parts is left in the queue; returns those that are not done then.
@@ -56,8 +63,9 @@ class Follow {
       });
       if (parts.empty()) return parts;
       if (terminal::JobProgress::interrupted()) {
-        cancel(array);
         end_.interrupted = true;
+        if (!cancel(array))
+          std::fprintf(stderr, "array %s is still in the queue: scancel %s\n", array.c_str(), array.c_str());
         return {};
       }
       const auto left = tasksLeft(array);
@@ -69,7 +77,7 @@ class Follow {
       else if (Clock::now() - vanished > kPatience)
         return parts;
       progress_.show();
-      std::this_thread::sleep_for(kPoll);
+      sleep(std::clamp<Clock::duration>(kPollOfPart * parts.size(), kPoll, kLongestPoll));
     }
   }
 

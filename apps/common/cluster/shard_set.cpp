@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "apps/common/version.h"
+
 namespace presa::cluster {
 namespace {
 
@@ -9,8 +11,7 @@ enum SetCode { kOfAnother = 811, kMissing = 812 };
 
 /// Why it does not belong to the first one; empty: it does.
 std::string differenceOf(const ShardHead& one, const ShardHead& first) {
-  if (one.version != first.version)
-    return "was made by Presa " + one.version + ", " + first.folder + " by " + first.version;
+  if (one.version != versionText()) return "was made by Presa " + one.version + ", this is " + versionText();
   if (one.shard.count != first.shard.count)
     return "is shard " + textOf(one.shard) + ", " + first.folder + " is " + textOf(first.shard);
   if (one.work != first.work)

@@ -73,6 +73,7 @@ class Driver {
 
   /// False: interrupted.
   bool runShard() {
+    keeps_killed_ = false;  // by whoever is short of memory; another machine may make it
     prepare();
     {
       const MachineTurn turn = takeTurn(MachineTurn::kWithOthers);
@@ -82,6 +83,10 @@ class Driver {
     for (int repeat = 0; repeat < study_.repeats; ++repeat) timeAll(repeat);
     if (options_.instructions) timeAll(kCounted);
     progress_->finish();
+    if (const std::size_t runs = stopped_ ? 0 : lost(); runs > 0)
+      throw std::runtime_error(std::to_string(runs) + (runs == 1 ? " run was" : " runs were") +
+                               " killed from outside, perhaps for want of memory; the same command with --resume "
+                               "makes what is missing");
     return !stopped_;
   }
 
@@ -97,6 +102,8 @@ class Driver {
   void refineReference();
   void timeAll(int repeat);
   Timing timing(const Task& task) const;
+  bool isMeasured(const Task& task) const;
+  std::size_t lost() const;
   void compare(std::size_t levels);
   bool allResolved() const;
   void collect();
@@ -104,6 +111,8 @@ class Driver {
   const Study& study_;
   const DriverOptions& options_;
   const Shard shard_;
+  const std::string hardware_ = hardwareText();
+  bool keeps_killed_ = true;  ///< a run that was killed is a result of its setting
   std::string rig_;
   std::unique_ptr<RunStore> store_;
   std::vector<std::uint64_t> level_hash_;
@@ -145,6 +154,22 @@ void Driver::expectAll() {
   progress_ = std::make_unique<terminal::JobProgress>(count);
 }
 
+/// Runs of the shard that left nothing.
+std::size_t Driver::lost() const {
+  std::size_t count = 0;
+  for (std::size_t level = 0; level < std::min(kFirstLevels, level_hash_.size()); ++level)
+    count += shard_.holds(level) && !store_->hasEvidence(level_hash_[level]) ? 1 : 0;
+  for (std::size_t i = 0; i < study_.settings.size(); ++i) {
+    if (!runs(i)) continue;
+    const std::uint64_t hash = study_.settings[i].scene_hash;
+    const bool watched = store_->hasEvidence(hash);
+    count += watched ? 0 : 1;
+    if (!watched || !store_->evidence(hash, false).failure.empty()) continue;
+    for (int repeat = 0; repeat < study_.repeats; ++repeat) count += store_->hasTiming(hash, repeat) ? 0 : 1;
+  }
+  return count;
+}
+
 MachineTurn Driver::takeTurn(MachineTurn::Kind kind) {
   MachineTurn turn;
   while (!stopped_ && !turn.take(kind)) {
@@ -172,12 +197,17 @@ StudySpec Driver::spec(const Task& task) const {
   return spec;
 }
 
+// A cost of another machine counts for nothing here.
+bool Driver::isMeasured(const Task& task) const {
+  return store_->hasTiming(task.hash, task.repeat) && store_->timing(task.hash, task.repeat).hardware == hardware_;
+}
+
 // A job saves its result on disk; it returns text only on failure.
 void Driver::work(const std::vector<Task>& tasks, int workers, const std::string& what) {
   std::vector<Task> missing;
   std::set<std::pair<std::uint64_t, int>> planned;
   for (const Task& task : tasks) {
-    const bool there = task.repeat < 0 ? store_->hasEvidence(task.hash) : store_->hasTiming(task.hash, task.repeat);
+    const bool there = task.repeat < 0 ? store_->hasEvidence(task.hash) : isMeasured(task);
     if (!there && planned.insert({task.hash, task.repeat}).second)
       missing.push_back(task);
     else
@@ -195,6 +225,7 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     Evidence evidence;
     evidence.seconds = job.seconds;
     evidence.failure = job.outcome == JobResult::Outcome::kTimedOut ? kTooLong : job.text;
+    if (!keeps_killed_ && job.killed) return;
     store_->save(missing[i].hash, evidence);
   };
   const auto results = runJobs(
@@ -237,10 +268,13 @@ void Driver::refineReference() {
 }
 
 Timing Driver::timing(const Task& task) const {
-  if (task.repeat != kCounted) return timeRun(spec(task));
-  Timing counted;
-  counted.instructions = countInstructions(spec(task));
-  return counted;
+  Timing timing;
+  if (task.repeat == kCounted)
+    timing.instructions = countInstructions(spec(task));
+  else
+    timing = timeRun(spec(task));
+  timing.hardware = hardware_;
+  return timing;
 }
 
 void Driver::timeAll(int repeat) {

@@ -22,7 +22,8 @@ struct DriverOptions {
 /// After Ctrl-C the result is incomplete and marked as interrupted; finished runs are kept on disk.
 Result runStudy(const Study& study, const DriverOptions& options);
 /// Makes the runs of one shard, and keeps them in Study::folder for the merge. Costs are measured while no other shard
-/// of the user runs on this machine. False: interrupted. Throws as runStudy.
+/// of the user runs on this machine. False: interrupted. Throws as runStudy, and std::runtime_error where runs were killed
+/// from outside: their shard is not finished.
 bool runShard(const Study& study, const Shard& shard, const DriverOptions& options);
 
 /// Creates the folder and checks that it is writable: otherwise E803.

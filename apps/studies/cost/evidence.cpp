@@ -124,7 +124,8 @@ nlohmann::json toJson(const Timing& timing) {
           {"groups", groups},
           {"load_s", timing.load},
           {"memory_B", timing.memory},
-          {"instructions_per_simulated_s", timing.instructions}};
+          {"instructions_per_simulated_s", timing.instructions},
+          {"hardware", timing.hardware}};
 }
 
 Timing timingFrom(const nlohmann::json& json) {
@@ -138,6 +139,7 @@ Timing timingFrom(const nlohmann::json& json) {
     timing.groups.push_back(
         {g.at("name"), g.at("period_s"), g.at("ticks"), g.at("mean_s"), g.at("median_s"), g.at("p999_s")});
   }
+  timing.hardware = json.value("hardware", "");
   return timing;
 }
 

@@ -20,6 +20,7 @@ struct Timing {
     std::uint64_t ticks = 0;
     double mean = 0, median = 0, p999 = 0;  ///< per tick [s], without the cost of reading the clock
   };
+  std::string hardware;              ///< that it ran on, as hardwareText()
   std::vector<std::string> engines;  ///< with versions
   double per_second = 0;             ///< processor time of all groups per simulated second [-]
   std::vector<Group> groups;

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "apps/common/file_text.h"
 #include "apps/studies/cost/hash.h"
 #include "apps/studies/cost/law_factor.h"
 #include "framework/scene/load.h"
@@ -38,7 +39,7 @@ constexpr KnownFactor kFactors[] = {
     {"fingertip_radius", "device/*/fingertip_radius"},
 };
 
-constexpr const char* kMeshFactor = "haptic_mesh";
+constexpr const char *kMeshFactor = "haptic_mesh", *kMeshFolder = "/meshes/";  // of a study's own folder
 
 std::vector<std::string> pathsOf(const std::string& path, const Scene& scene) {
   const std::size_t star = path.find('*');
@@ -51,6 +52,36 @@ std::vector<std::string> pathsOf(const std::string& path, const Scene& scene) {
 std::vector<std::string> with(std::vector<std::string> sets, const std::vector<std::string>& more) {
   sets.insert(sets.end(), more.begin(), more.end());
   return sets;
+}
+
+/// Files of the meshes that are felt or collide, in the order of the scene.
+std::vector<std::string> meshesOf(const Scene& scene) {
+  std::vector<std::string> files;
+  const auto add = [&](const Shape& shape) {
+    if (const auto* mesh = std::get_if<MeshRef>(&shape)) files.push_back(mesh->file);
+  };
+  const auto addAll = [&](const Shape& shape) {
+    add(shape);
+    if (const auto* compound = std::get_if<Compound>(&shape))
+      for (const ShapePart& part : compound->parts) add(part.shape);
+  };
+  for (const Body& body : scene.bodies) {
+    if (body.haptic) addAll(body.haptic->shape);
+    if (body.physics) addAll(body.physics->shape);
+  }
+  return files;
+}
+
+/// Hash of a file's content, read once in a process.
+std::string contentHash(const std::string& file) {
+  static std::map<std::string, std::string> known;
+  const auto [found, is_new] = known.try_emplace(file);
+  if (is_new) {
+    Hash hash;
+    hash.add(contentsOf(file));
+    found->second = std::to_string(hash.value());
+  }
+  return found->second;
 }
 
 struct Checked {
@@ -89,7 +120,7 @@ Factor meshFactor(const std::vector<std::string>& values, const Scene& scene, co
       if (mesh == nullptr || !(part > 0) || part == 1) continue;
       std::string suffix = value;
       std::replace(suffix.begin(), suffix.end(), '/', '_');
-      const std::string file = folder + "/meshes/" + body.name + "_" + suffix + ".obj";
+      const std::string file = folder + kMeshFolder + body.name + "_" + suffix + ".obj";
       added.sets.push_back("body/" + body.name + "/haptic/mesh/file=" + file);
       added.meshes.push_back({body.name, mesh->file, file, part});
     }
@@ -184,10 +215,15 @@ std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>&
     if (equals != std::string::npos) overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
   }
   Hash hash;
-  std::string resolved = loadScene(inputs.scene, overrides, diagnostics).resolved_xml;
-  for (std::size_t at = 0; !folder.empty() && (at = resolved.find(folder, at)) != std::string::npos;)
+  const Scene scene = loadScene(inputs.scene, overrides, diagnostics);
+  const std::string own = folder + kMeshFolder;
+  std::string resolved = scene.resolved_xml;
+  for (std::size_t at = 0; !folder.empty() && (at = resolved.find(own, at)) != std::string::npos;)
     resolved.erase(at, folder.size());
   for (const std::string& part : sortedParts(resolved)) hash.add(part);
+  for (const std::string& file : meshesOf(scene)) {
+    if (folder.empty() || !file.starts_with(own)) hash.add(contentHash(file));
+  }
   return hash.value();
 }
 

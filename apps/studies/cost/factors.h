@@ -27,8 +27,8 @@ enum class Combine { kGrid, kOneAtATime };
 /// Adds settings to the study: first the unmodified scene, then every other setting once. A value that the scene
 /// rejects is an error; a rejected combination of valid values is an impossible setting.
 void addSettings(Study& study, const std::vector<Factor>& factors, Combine combine, Diagnostics& diagnostics);
-/// Loads and checks the scene with these sets; returns a hash of all its values, in which files of the study's own
-/// `folder` count by their names alone. Errors go to `diagnostics`.
+/// Loads and checks the scene with these sets; returns a hash of all its values and of the meshes that it names; those
+/// that the study makes in its own `folder` count by their names alone. Errors go to `diagnostics`.
 std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, const std::string& folder,
                            Diagnostics& diagnostics);
 /// Fills Setting::name and Setting::choices. Call it after all settings have been added.

@@ -28,7 +28,7 @@ Identity identityOf(const Study& study) {
   }
   for (const std::string& text :
        {std::to_string(study.duration), std::to_string(study.seed), study.compared.from, study.compared.to,
-        study.steady.from, study.steady.to, std::string(kVersion), std::string(Trace::kFormat)})
+        study.steady.from, study.steady.to, versionText(), std::string(Trace::kFormat)})
     common.add(text);
   identity.common = common.value();
   for (const Setting& setting : study.settings) {

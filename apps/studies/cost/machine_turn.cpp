@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -22,9 +21,8 @@ MachineTurn::~MachineTurn() {
 
 bool MachineTurn::take(Kind kind) {
   if (file_ < 0) {
-    std::error_code none;
-    const auto folder = std::filesystem::temp_directory_path(none);
-    const std::string lock = (folder / ("presa-cost-" + std::to_string(getuid()) + ".lock")).string();
+    // the same for all jobs of a machine, whatever their TMPDIR
+    const std::string lock = "/tmp/presa-cost-" + std::to_string(getuid()) + ".lock";
     file_ = open(lock.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (file_ < 0) return true;
   }

@@ -12,7 +12,7 @@ class MachineTurn {
   MachineTurn(MachineTurn&& other) noexcept;
   MachineTurn& operator=(MachineTurn&&) = delete;
   ~MachineTurn();
-  /// False: it is not this one's turn yet. True also where no turns can be taken: there is no folder for the lock.
+  /// False: it is not this one's turn yet. True also where no turns can be taken: the lock cannot be made.
   bool take(Kind kind);
 
  private:

@@ -42,8 +42,9 @@ double callgrind(const StudySpec& spec, double duration) {
   for (const std::string& set : spec.sets) command += " --set " + shell::quoted(set);
   const shell::Outcome outcome = shell::run(command);
   constexpr std::string_view kMark = "Collected : ";
-  const std::size_t at = outcome.text.find(kMark);
-  const double collected = at == std::string::npos ? 0 : std::atof(outcome.text.c_str() + at + kMark.size());
+  const std::string text = outcome.out + outcome.err;
+  const std::size_t at = text.find(kMark);
+  const double collected = at == std::string::npos ? 0 : std::atof(text.c_str() + at + kMark.size());
   if (!(collected > 0)) throw std::runtime_error("valgrind counted nothing");
   return collected;
 }

@@ -24,12 +24,9 @@ int merge(const MergeRequest& request, int jobs, const std::string& apply) {
   if (!diagnostics.hasErrors() && !apply.empty()) checkApply(apply, merged.study, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
-  std::string command = "presa cost merge";
-  for (const std::string& folder : request.folders) command += " " + folder;
-  if (request.mixed) command += " --mixed";
   Result result = runStudy(merged.study, {jobs, true, merged.instructions, merged.machine});
-  result.command = command;
-  if (result.interrupted) return interrupted(merged.study.folder, command + " --out " + merged.study.folder);
+  result.command = commandLine({.request = merged.request, .apply = {}});  // the whole study has the same errors
+  if (result.interrupted) return interrupted(merged.study.folder, "the same command");
   return writeResults(result, apply);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/common/atomic_file.h"
@@ -9,8 +10,10 @@
 #include "apps/common/file_text.h"
 #include "apps/common/machine.h"
 #include "apps/common/version.h"
+#include "apps/studies/cost/driver.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/run_store.h"
+#include "framework/input/folders.h"
 
 namespace presa::cost {
 namespace {
@@ -22,6 +25,7 @@ enum ShardCode { kNoShard = 810, kOfAnother = 811 };
 
 constexpr const char *kFile = "/shard.json", *kRuns = "/runs";
 constexpr int kFormat = 1;
+constexpr const char* kMixedHelp = "--mixed takes the errors of all shards and measures all costs on this machine";
 
 json toJson(const Request& request) {
   return {{"input", request.input},        {"rig", request.rig},         {"sets", request.sets},
@@ -63,17 +67,13 @@ std::size_t filesIn(const std::string& folder) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-/// What costs depend on: all but the load.
-std::vector<std::pair<std::string, std::string>> hardwareOf(const ShardFile& file) {
-  auto facts = file.machine;
-  std::erase_if(facts, [](const auto& fact) { return fact.first == "load average"; });
-  return facts;
-}
-
-std::string processorOf(const ShardFile& file) {
-  for (const auto& [name, value] : file.machine)
-    if (name == "processor") return value;
-  return "unknown";
+/// The command line of a shard allowed the folders of its files.
+void allowFoldersOf(const Request& request) {
+  std::vector<std::string> words{"presa", request.input, request.rig};
+  words.insert(words.end(), request.sets.begin(), request.sets.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  input::allowFoldersOf(static_cast<int>(pointers.size()), pointers.data());
 }
 
 /// How to make a shard.
@@ -89,8 +89,10 @@ class Merge {
     Merged merged;
     if (!readAll() || !belongTogether()) return merged;
     Request whole = shards_.front().file.request;
+    allowFoldersOf(whole);
     whole.shard.reset();
     whole.out = request_.out;
+    merged.request = whole;
     merged.study = planStudy(whole, diagnostics_);
     if (diagnostics_.hasErrors()) return merged;
     identity_ = identityOf(merged.study);
@@ -107,7 +109,8 @@ class Merge {
     if (diagnostics_.hasErrors()) return merged;
     merged.instructions = shards_.front().file.instructions;
     if (!request_.mixed) merged.machine = shards_.front().file.machine;
-    copyRuns(merged.study.folder + kRuns);
+    checkFolder(merged.study.folder, diagnostics_);
+    if (!diagnostics_.hasErrors()) copyRuns(merged.study.folder + kRuns);
     return merged;
   }
 
@@ -146,22 +149,15 @@ class Merge {
       heads.push_back({shard.folder, *shard.file.request.shard, shard.file.version,
                        std::to_string(shard.file.study) + (shard.file.instructions ? " counted" : "")});
     const Read& first = shards_.front();
-    const auto command = [&](const Shard& shard) { return commandFor(first.file.request, shard); };
-    if (!cluster::areWhole(heads, command, diagnostics_)) return false;
-    for (const Read& shard : shards_) {
-      if (request_.mixed || hardwareOf(shard.file) == hardwareOf(first.file)) continue;
-      refuse(kOfAnother, {shard.folder, 0, 0},
-             "was measured on another machine than " + first.folder + ": " + processorOf(shard.file) + ", and " +
-                 processorOf(first.file),
-             "--mixed takes the errors of all shards and measures all costs on this machine");
-    }
-    return !diagnostics_.hasErrors();
+    return cluster::areWhole(
+        heads, [&](const Shard& shard) { return commandFor(first.file.request, shard); }, diagnostics_);
   }
 
   RunStore storeOf(const Read& shard) const { return {shard.folder + kRuns, identity_.common}; }
 
-  /// Every run of every shard is there and can be read.
+  /// Every run of every shard is there and can be read, and all costs come from one kind of machine.
   void checkRuns(const Study& study) {
+    std::map<std::string, std::string> hardware;  // of costs, with a folder that has it
     for (const Read& shard : shards_) {
       const Shard& its = *shard.file.request.shard;
       try {
@@ -169,10 +165,10 @@ class Merge {
         for (std::size_t i = 0; i < study.settings.size(); ++i) {
           const Setting& setting = study.settings[i];
           if (!its.holds(i) || !setting.impossible.empty()) continue;
-          storeOf(shard).evidence(setting.scene_hash, true);
-          const bool timed = storeOf(shard).evidence(setting.scene_hash, false).failure.empty();
-          for (int repeat = 0; timed && repeat < study.repeats; ++repeat)
-            if (storeOf(shard).hasTiming(setting.scene_hash, repeat)) storeOf(shard).timing(setting.scene_hash, repeat);
+          const RunStore store = storeOf(shard);
+          if (!store.evidence(setting.scene_hash, true).failure.empty()) continue;
+          for (int repeat = 0; repeat < study.repeats; ++repeat)
+            hardware[store.timing(setting.scene_hash, repeat).hardware] = shard.folder;
         }
         for (std::size_t level = 0; level < std::min(kFirstLevels, identity_.levels.size()); ++level)
           if (its.holds(level)) storeOf(shard).evidence(identity_.levels[level], true);
@@ -182,11 +178,15 @@ class Merge {
                "make it again: " + commandFor(shard.file.request, its));
       }
     }
+    if (request_.mixed || hardware.size() < 2) return;
+    const auto &first = *hardware.begin(), &other = *std::next(hardware.begin());
+    refuse(kOfAnother, {first.second, 0, 0},
+           "has costs of another machine than " + other.second + ": " + first.first + ", and " + other.first,
+           kMixedHelp);
   }
 
   void copyRuns(const std::string& to) {
-    fs::remove_all(to);
-    fs::create_directories(to);
+    fs::create_directories(to);  // a merge that was stopped goes on with what it has measured
     for (const Read& shard : shards_) {
       for (const auto& entry : fs::directory_iterator(shard.folder + kRuns)) {
         const std::string name = entry.path().filename().string();
@@ -204,6 +204,22 @@ class Merge {
 };
 
 }  // namespace
+
+bool holdsShard(const std::string& folder, const Shard& shard, std::uint64_t study, bool instructions) {
+  // listing the folder shows what another machine has just written there; asking for the file may not
+  std::error_code none;
+  bool listed = false;
+  for (const auto& entry : fs::directory_iterator(folder, none)) listed = listed || entry.path() == folder + kFile;
+  if (!listed) return false;
+  try {
+    const ShardFile file = shardFileFrom(json::parse(contentsOf(folder + kFile)));
+    const Shard& its = *file.request.shard;
+    return its.index == shard.index && its.count == shard.count && file.study == study &&
+           file.instructions == instructions && file.version == versionText();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 void writeShardFile(const Study& study, const Request& request, bool instructions) {
   Request absolute = request;  // the merge may run in another folder

@@ -18,6 +18,9 @@ struct ShardFile {
   std::size_t files = 0;                                     ///< that hold its runs
 };
 
+/// Whether the folder holds this finished shard of the study (Identity::study).
+bool holdsShard(const std::string& folder, const Shard& shard, std::uint64_t study, bool instructions);
+
 /// Writes the file of a shard whose runs are done; a folder without it holds no finished shard.
 void writeShardFile(const Study& study, const Request& request, bool instructions);
 
@@ -29,6 +32,7 @@ struct MergeRequest {
 
 /// A study whose runs lie in its folder.
 struct Merged {
+  Request request;  ///< of the whole study
   Study study;
   bool instructions = false;                                 ///< they were counted
   std::vector<std::pair<std::string, std::string>> machine;  ///< that all costs come from; empty: to be measured here

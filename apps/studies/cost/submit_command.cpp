@@ -8,6 +8,7 @@
 #include "apps/common/shell.h"
 #include "apps/studies/cost/apply.h"
 #include "apps/studies/cost/driver.h"
+#include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/shard.h"
 #include "apps/studies/cost/shard_commands.h"
 #include "apps/studies/cost/study_arguments.h"
@@ -27,7 +28,7 @@ struct SubmitArguments {
   std::vector<std::string> options;  ///< for sbatch
 };
 
-slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study) {
+slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study, std::uint64_t identity) {
   const std::string shards = study.folder + "/shards";
   std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "presa").string();
   std::string command = shell::quoted(program);
@@ -40,7 +41,10 @@ slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study) {
                 return command + " --shard \"" + part + "/" + tasks + "\" --out " + shell::quoted(shards + "/") + "\"" +
                        part + "\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --resume";
               },
-          .is_done = [shards](int part) { return fs::exists(shards + "/" + std::to_string(part) + "/shard.json"); },
+          .is_done =
+              [shards, identity, tasks = a.tasks, counted = a.study->instructions](int part) {
+                return holdsShard(shards + "/" + std::to_string(part), {part, tasks}, identity, counted);
+              },
           .retries = a.retries,
           .options = a.options};
 }
@@ -59,6 +63,7 @@ slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study) {
 int submit(const SubmitArguments& a) {
   Diagnostics diagnostics;
   requireScene(*a.study, diagnostics);
+  if (!a.slurm) diagnostics.error(123, {"presa cost submit", 0, 0}, "needs the kind of cluster, found none", "--slurm");
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
   const Study study = planStudy(a.study->request, diagnostics);
   if (!a.study->apply.empty()) checkApply(a.study->apply, study, diagnostics);
@@ -69,13 +74,22 @@ int submit(const SubmitArguments& a) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  const slurm::ArrayRun array = arrayOf(a, study);
-  if (!a.study->resume) fs::remove_all(array.folder);
+  const slurm::ArrayRun array = arrayOf(a, study, identityOf(study).study);
+  const std::string before = array.folder + ".before";  // until Slurm has taken the job
+  if (!a.study->resume && fs::exists(array.folder)) {
+    fs::remove_all(before);
+    fs::rename(array.folder, before);
+  }
   fs::create_directories(array.folder);
   slurm::ArrayEnd end;
   try {
     end = slurm::runArray(array);
+    fs::remove_all(before);
   } catch (const std::runtime_error& error) {
+    if (fs::exists(before)) {
+      fs::remove_all(array.folder);
+      fs::rename(before, array.folder);
+    }
     refuse(kNoCluster, "presa cost submit", std::string("Slurm refuses the job: ") + error.what(),
            "--sbatch OPTION gives options to sbatch, such as --sbatch=--partition=NAME");
   }
@@ -94,7 +108,7 @@ void addSubmit(Command cost, const std::shared_ptr<bool>& chosen, int& status) {
   Command command = cost.command("submit", "Run a study on a Slurm cluster: shards as a job array, then the merge");
   addStudyOptions(command, a->study);
   command.named("SCENE").required();
-  command.flag("--slurm", a->slurm, "the cluster is one of Slurm (there is no other kind yet)");
+  command.flag("--slurm", a->slurm, "the cluster is one of Slurm: required, so that scripts say what they rely on");
   command.option("--tasks", a->tasks, "shards, each a task of the array").withinCount(1, 10000).showDefault();
   command
       .option("--sbatch", a->options,
@@ -104,12 +118,12 @@ void addSubmit(Command cost, const std::shared_ptr<bool>& chosen, int& status) {
       .withinCount(0, 100)
       .showDefault();
   command.flag("--mixed", a->mixed, "nodes may differ: all costs are measured again, on this machine");
-  command.flag("--resume", a->study->resume, "keep the shards, and the runs of others, that are there");
+  command.flag("--resume", a->study->resume, "keep what an interrupted submission has made");
   command.footer(
       "Exit status: 0 done, 1 the reference could not be run, 2 bad input, no cluster, or a shard that never "
       "finished,\n"
       "130 Ctrl-C (the array is cancelled; --resume goes on).\n"
-      "The folder of --out must be seen by all nodes. One node measures one cost at a time, whatever shares it.\n"
+      "The folder of --out must be seen by all nodes. On one node, your shards measure costs one at a time.\n"
       "Example:  presa cost submit experiments/accuracy_cost/cube_grasp.xml --slurm --tasks 16 --out /scratch/grasp");
   command.action([a, chosen, &status] {
     *chosen = true;

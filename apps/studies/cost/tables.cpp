@@ -132,12 +132,9 @@ std::string toCsv(const Result& result) {
 }
 
 std::string toRunsCsv(const Result& result) {
-  std::string processor;
-  for (const auto& [name, value] : result.machine)
-    if (name == "processor") processor = value;
   std::string out = "setting";
   for (const Factor& factor : result.study.factors) out += "," + csvText(factor.name);
-  out += ",repeat,cpu_ms_per_s,busiest_tick_of_period,load_ms,memory_MB,processor\n";
+  out += ",repeat,cpu_ms_per_s,busiest_tick_of_period,load_ms,memory_MB,hardware\n";
   for (const Outcome& outcome : result.outcomes) {
     std::string setting = csvText(outcome.setting.name);
     for (const auto& [factor, value] : outcome.setting.choices) setting += "," + csvText(value);
@@ -145,7 +142,7 @@ std::string toRunsCsv(const Result& result) {
       const Timing& timing = outcome.timings[repeat];
       out += setting + "," + std::to_string(repeat + 1) + "," + number(1e3 * timing.per_second) + "," +
              number(timing.busiestTick()) + "," + number(1e3 * timing.load) + "," + number(1e-6 * timing.memory) + "," +
-             csvText(processor) + "\n";
+             csvText(timing.hardware) + "\n";
     }
   }
   return out;

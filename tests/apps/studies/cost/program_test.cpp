@@ -79,7 +79,7 @@ TEST(Cost, WritesWhatItPromises) {
   EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 4 * 5);
   EXPECT_EQ(
       runs.substr(0, runs.find('\n')),
-      "setting,\"dynamics_rate\",\"coupling\",repeat,cpu_ms_per_s,busiest_tick_of_period,load_ms,memory_MB,processor");
+      "setting,\"dynamics_rate\",\"coupling\",repeat,cpu_ms_per_s,busiest_tick_of_period,load_ms,memory_MB,hardware");
   EXPECT_NE(contentsOf(out + "/report.html").find("In words"), std::string::npos);
 }
 

@@ -115,7 +115,7 @@ TEST_F(Shards, OfOtherStudiesAreRefused) {
   other["version"] = "0.1";
   fs::copy(in("part_5"), in("part_4"), fs::copy_options::recursive);
   write("part_4/shard.json", other.dump());
-  expectRefused("14", "E811", "was made by Presa 0.1");
+  expectRefused("14", "E811", "was made by Presa 0.1, this is");
   expectRefused("15", "E811", "is the folder of shard", "part_5");
 }
 
@@ -154,21 +154,52 @@ TEST_F(Shards, ThatAreDamagedAreRefused) {
 // Costs of two machines are in no front together: with --mixed all are measured where the shards are merged.
 TEST_F(Shards, OfSeveralMachinesKeepTheirErrorsAlone) {
   make(kStudy, 2);
-  json other = read("part_2/shard.json");
-  const json here = other.at("machine");
-  for (json& fact : other["machine"])
-    if (fact[0] == "processor") fact[1] = "Slow 486, 1 available";
-  write("part_2/shard.json", other.dump());
-  expectRefused("12", "E811", "was measured on another machine than");
+  for (const auto& entry : fs::directory_iterator(in("part_2/runs"))) {
+    if (entry.path().string().find(".time") == std::string::npos) continue;
+    json cost = json::parse(contentsOf(entry.path()));
+    cost["hardware"] = "Slow 486, 1 available";
+    cost["cpu_per_simulated_s"] = 1e6;
+    std::ofstream(entry.path()) << cost.dump();
+  }
+  expectRefused("12", "E811", "has costs of another machine than");
   const auto merged = merge("12", " --mixed");
   ASSERT_EQ(merged.status, 0) << merged.err;
   const json result = read("merged/cost.json");
-  for (const json& fact : here) {
-    if (fact[0] == "processor") {
-      EXPECT_EQ(result.at("machine").at("processor"), fact[1]);
-    }
+  for (const json& setting : result.at("settings")) {
+    EXPECT_EQ(setting.at("repeats").size(), 2u);
+    EXPECT_LT(setting.at("cpu_per_simulated_s").at("high"), 1e3);
   }
-  for (const json& setting : result.at("settings")) EXPECT_EQ(setting.at("repeats").size(), 2u);
+  EXPECT_EQ(contentsOf(in("merged/runs.csv")).find("Slow 486"), std::string::npos);
+}
+
+// Of a mesh that changed between two shards only the name is the same.
+TEST_F(Shards, OfAChangedMeshAreRefused) {
+  fs::create_directories(in("scene"));
+  fs::copy(source("config/meshes"), in("scene/meshes"), fs::copy_options::recursive);
+  std::string text = contentsOf(source("config/scenes/pinch_and_lift.xml"));
+  for (std::size_t at = 0; (at = text.find("../meshes/", at)) != std::string::npos;) text.erase(at, 3);
+  write("scene/scene.xml", text);
+  const std::string study = "cost " + in("scene/scene.xml") + " --rig " + source("config/rigs/pinch_and_lift.xml") +
+                            " --quick --for 0.5 --knob dynamics_rate=100,200";
+  ASSERT_EQ(presa(study + " --shard 1/2 --out " + in("part_1")).status, 0);
+  for (const auto& mesh : fs::directory_iterator(in("scene/meshes")))
+    if (mesh.path().extension() == ".obj") std::ofstream(mesh.path(), std::ios::app) << "# touched\n";
+  ASSERT_EQ(presa(study + " --shard 2/2 --out " + in("part_2")).status, 0);
+  expectRefused("12", "E811", "is of another study than");
+}
+
+// A run that is killed for want of memory says nothing about its setting.
+TEST_F(Shards, WithAKilledRunAreNotFinished) {
+  const std::string shard = kStudy + " --shard 1/1 --jobs 1 --out " + in("part_1");
+  const auto killed = shell(std::string("sh -c '") + PRESA_BINARY_DIR + "/bin/presa " + shard +
+                            " & pid=$!; while ! pkill -KILL -P $pid; do sleep 0.002; done; wait $pid'");
+  EXPECT_EQ(killed.status, 1) << killed.err;
+  EXPECT_THAT(killed.err, HasSubstr("killed from outside"));
+  EXPECT_FALSE(fs::exists(in("part_1/shard.json")));
+  ASSERT_EQ(presa(shard + " --resume").status, 0);
+  const auto merged = merge("1");
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("None of the 4 settings failed."));
 }
 
 TEST_F(Shards, AreNumberedFromOne) {

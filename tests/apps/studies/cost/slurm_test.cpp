@@ -65,7 +65,9 @@ TEST_F(Slurm, MakesTheStudyAlthoughATaskIsKilled) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(accuracyOf(read("whole/cost.json")), accuracyOf(read("merged/cost.json")));
   EXPECT_THAT(outcome.out, HasSubstr("None of the "));
-  EXPECT_THAT(contentsOf(in("merged/shards/tasks.sh")), HasSubstr("#SBATCH --job-name=presa_cost_cube"));
+  // the task was there twice
+  const std::string log = contentsOf(in("merged/shards/task_2.log"));
+  EXPECT_NE(log.find("part 2, job "), log.rfind("part 2, job ")) << log;
 }
 
 TEST_F(Slurm, SaysWhichShardNeverFinished) {
@@ -79,8 +81,16 @@ TEST_F(Slurm, SaysWhichShardNeverFinished) {
   EXPECT_EQ(again.status, 0) << again.err;
 }
 
+// What an earlier submission made stays, until Slurm has taken the job; --resume asks whose it is.
 TEST_F(Slurm, ThatRefusesTheJobIsQuoted) {
   if (!runs_) GTEST_SKIP() << why_;
+  const std::string first = kProgram + " " + submitted(kStudy) + " --slurm --tasks 2 --out '" + in("my 100% out") + "'";
+  ASSERT_EQ(shell(first).status, 0);
+  EXPECT_EQ(shell(first + " --sbatch=--partition=none").status, 2);
+  EXPECT_TRUE(fs::exists(in("my 100% out/shards/2/shard.json")));
+  const auto other = shell(first + " --resume --seed 7");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(read("my 100% out/cost.json").at("seed"), 7);
   const auto outcome =
       shell(kProgram + " " + submitted(kStudy) + " --slurm --sbatch=--partition=none --out " + in("merged"));
   EXPECT_EQ(outcome.status, 2);
