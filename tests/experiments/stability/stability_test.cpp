@@ -122,6 +122,45 @@ TEST_F(Stability, ATrialThatCrashesOrThrowsIsARowAndTheOthersGoOn) {
   EXPECT_EQ(rows()[2].at("verdict"), "stable");
 }
 
+// Three cases in two shards, one of which crashes: the rows and the status are those of one run.
+TEST_F(Stability, ShardsAreTheWholeRun) {
+  const auto with = [](double value) { return [value] { return std::vector{finding("m", value, "", 1, "o")}; }; };
+  const std::vector<Case> all{
+      caseOf("fine", Verdict::kStable, with(0.25)),
+      caseOf("throw", Verdict::kStable, []() -> std::vector<Finding> { throw std::runtime_error("no such body"); }),
+      caseOf("drifts", Verdict::kDrift, with(NAN))};
+  const auto timeless = [this] {
+    std::vector<nlohmann::json> lines = rows();
+    for (nlohmann::json& row : lines) row["seconds"] = 0;
+    return lines;
+  };
+  EXPECT_EQ(runCases(into(), all), 1);
+  const auto whole = timeless();
+  fs::remove_all(folder_);
+  std::vector<std::string> folders;
+  for (int i = 1; i <= 2; ++i) {
+    RunnerOptions options = into();
+    options.out = folders.emplace_back((folder_ / ("part_" + std::to_string(i))).string());
+    options.shard = {i, 2};
+    EXPECT_EQ(runCases(options, all), 0);
+  }
+  EXPECT_EQ(mergeCases(folders, into(), all), 1);
+  EXPECT_EQ(timeless(), whole);
+  const auto refusal = [&](const std::vector<std::string>& parts, const std::vector<Case>& cases) {
+    try {
+      mergeCases(parts, into(), cases);
+    } catch (const InputError& error) {
+      return error.diagnostics().text();
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal({folders[1]}, all).find("shard 1/2: error[E812]: is missing"), std::string::npos);
+  EXPECT_NE(refusal({folders[1], folders[1]}, all).find("error[E811]"), std::string::npos);
+  EXPECT_NE(refusal(folders, {all[0], all[1]}).find("was made with other cases"), std::string::npos);
+  std::ofstream(folders[0] + "/shard.json") << "{";
+  EXPECT_NE(refusal(folders, all).find("error[E810]"), std::string::npos);
+}
+
 TEST_F(Stability, AFolderThatCannotBeWrittenIsRefusedBeforeAnyWork) {
   std::ofstream(folder_.string()) << "a file where the folder should be";
   const fs::path ran = folder_.string() + "_ran";
