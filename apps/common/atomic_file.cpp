@@ -30,17 +30,6 @@ int writeAll(int file, const std::string& text) {
   return 0;
 }
 
-/// A device, a pipe or /dev/stdout is written to; a rename would replace it.
-bool isStream(const std::string& path) {
-  std::error_code none;
-  const auto status = std::filesystem::status(path, none);
-  if (std::filesystem::is_regular_file(status)) {  // an open file of this process, as /dev/stdout may be
-    const std::string link = std::filesystem::read_symlink(path, none).string();
-    return path.starts_with("/dev/fd/") || link.starts_with("/proc/self/fd/");
-  }
-  return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
-}
-
 void writeStream(const std::string& path, const std::string& text) {
   const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (file < 0) fail(errno, path);
@@ -50,6 +39,16 @@ void writeStream(const std::string& path, const std::string& text) {
 }
 
 }  // namespace
+
+bool isStream(const std::string& path) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  if (std::filesystem::is_regular_file(status)) {  // an open file of this process, as /dev/stdout may be
+    const std::string link = std::filesystem::read_symlink(path, none).string();
+    return path.starts_with("/dev/fd/") || link.starts_with("/proc/self/fd/");
+  }
+  return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
+}
 
 void writeFileAtomically(const std::string& path, const std::string& text) {
   if (isStream(path)) return writeStream(path, text);

@@ -7,9 +7,12 @@
 #include <filesystem>
 #include <system_error>
 
+#include "apps/common/atomic_file.h"
+
 namespace presa {
 
 std::string placeTrouble(const std::string& file) {
+  if (isStream(file)) return ::access(file.c_str(), W_OK) == 0 ? "" : std::generic_category().message(errno);
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
