@@ -6,8 +6,8 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kRadius = 0.01, kMass = 0.03, kHeight = 0.2;
-constexpr std::size_t kRoom = 64;  // hits
+constexpr double kFallerRadius = 0.01, kFallerMass = 0.03, kFall = 0.2;
+constexpr std::size_t kHitRoom = 64;  // hits
 
 std::vector<BodyHit> hitsOf(const Runner& runner) {
   std::vector<BodyHit> all;
@@ -31,13 +31,14 @@ class Hits : public testing::TestWithParam<DynamicsSettings::Solver> {
 // The speed is that before the step, so that up to a step of gravity is missing; the time is that of the closed gap,
 // without the gravity within the step: g h^2 / 2 over the speed, and less than a step.
 TEST_P(Hits, OfAFallingBallAreThoseOfFreeFall) {
-  Runner runner(WorldMaker().table().ball(kRadius, kMass, {0.02, 0, kRadius + kHeight}).world(), options());
-  runner.bodies.listen(kRoom);
+  Runner runner(WorldMaker().table().ball(kFallerRadius, kFallerMass, {0.02, 0, kFallerRadius + kFall}).world(),
+                options());
+  runner.bodies.listen(kHitRoom);
   while (runner.time < 1) runner.step();
   const std::vector<BodyHit> hits = hitsOf(runner);
   ASSERT_EQ(hits.size(), 1);
   const BodyHit& hit = hits[0];
-  const double speed = std::sqrt(2 * kGravity * kHeight), time = std::sqrt(2 * kHeight / kGravity);
+  const double speed = std::sqrt(2 * kGravity * kFall), time = std::sqrt(2 * kFall / kGravity);
   EXPECT_EQ(hit.A, 0);
   EXPECT_EQ(hit.B, 1);
   EXPECT_LE(hit.speed, speed + 1e-9);
@@ -54,8 +55,12 @@ INSTANTIATE_TEST_SUITE_P(BySolver, Hits,
 // Newton's law of impact: each hit has e times the speed of the one before, to a step of gravity.
 TEST(BodyHits, OfABouncingBallSlowDown) {
   constexpr double kRestitution = 0.7;
-  Runner runner(WorldMaker().bouncing(kRestitution).table().ball(kRadius, kMass, {0, 0, kRadius + kHeight}).world());
-  runner.bodies.listen(kRoom);
+  Runner runner(WorldMaker()
+                    .bouncing(kRestitution)
+                    .table()
+                    .ball(kFallerRadius, kFallerMass, {0, 0, kFallerRadius + kFall})
+                    .world());
+  runner.bodies.listen(kHitRoom);
   while (runner.time < 1.5) runner.step();
   const std::vector<BodyHit> hits = hitsOf(runner);
   ASSERT_GE(hits.size(), 4);
@@ -67,13 +72,13 @@ TEST(BodyHits, OfABouncingBallSlowDown) {
 TEST(BodyHits, AreNoneWhereBodiesRestRollOrSlide) {
   Runner runner(WorldMaker()
                     .table()
-                    .ball(kRadius, kMass, {0, 0.2, kRadius})
+                    .ball(kFallerRadius, kFallerMass, {0, 0.2, kFallerRadius})
                     .box({0.04, 0.04, 0.04}, 0.1, {{0, 0, 0.02}, Quat::Identity()})
                     .box({0.04, 0.04, 0.04}, 0.1, {{0, 0, 0.06}, Quat::Identity()})
                     .box({0.04, 0.04, 0.04}, 0.1, {{0, -0.2, 0.02}, Quat::Identity()})
                     .world());
-  runner.bodies.listen(kRoom);
-  runner.bodies.setVelocity(1, {0.2, 0, 0}, {0, 0.2 / kRadius, 0});
+  runner.bodies.listen(kHitRoom);
+  runner.bodies.setVelocity(1, {0.2, 0, 0}, {0, 0.2 / kFallerRadius, 0});
   runner.bodies.setVelocity(4, {0.3, 0, 0}, Vec3::Zero());
   while (runner.time < 1) runner.step();
   EXPECT_GT(runner[1].X_WB_end.p.x(), 0.1);
@@ -82,7 +87,7 @@ TEST(BodyHits, AreNoneWhereBodiesRestRollOrSlide) {
 }
 
 TEST(BodyHits, AreNotLookedForUnlessSomebodyListens) {
-  Runner runner(WorldMaker().table().ball(kRadius, kMass, {0, 0, kRadius + kHeight}).world());
+  Runner runner(WorldMaker().table().ball(kFallerRadius, kFallerMass, {0, 0, kFallerRadius + kFall}).world());
   while (runner.time < 1) runner.step();
   EXPECT_EQ(runner.bodies.hits().count(), 0U);
 }
@@ -93,7 +98,7 @@ BodyHit hitAt(double time, double speed, std::int32_t A = 0, std::int32_t B = 1)
 
 // One impact that the solver stops in two steps counts once; another pair, a later or a faster one counts.
 TEST(BodyHits, OfOnePairCountOnceWithinAFewSteps) {
-  BodyHits hits(kRoom);
+  BodyHits hits(kHitRoom);
   hits.add(hitAt(1, 0.3));
   hits.add(hitAt(1.005, 0.2));
   hits.add(hitAt(1.005, 0.2, 1, 0));
@@ -105,7 +110,7 @@ TEST(BodyHits, OfOnePairCountOnceWithinAFewSteps) {
 }
 
 TEST(BodyHits, AreReadOnceInOrderAndThoseLostAreCounted) {
-  BodyHits hits(kRoom);
+  BodyHits hits(kHitRoom);
   std::uint64_t next = 0;
   std::vector<double> heard;
   const auto hear = [&](const BodyHit& hit) { return hit.time < 50 && (heard.push_back(hit.time), true); };
@@ -114,8 +119,8 @@ TEST(BodyHits, AreReadOnceInOrderAndThoseLostAreCounted) {
   EXPECT_EQ(hits.read(next, hear), 0U);
   EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2));
   for (int i = 3; i < 100; ++i) hits.add(hitAt(i, 1));
-  EXPECT_EQ(hits.read(next, hear), 100 - 3 - kRoom);
-  EXPECT_EQ(heard.size(), 3 + 50 - (100 - kRoom));
+  EXPECT_EQ(hits.read(next, hear), 100 - 3 - kHitRoom);
+  EXPECT_EQ(heard.size(), 3 + 50 - (100 - kHitRoom));
   EXPECT_EQ(next, 50U);  // refused, and offered again
 }
 
