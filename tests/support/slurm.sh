@@ -26,7 +26,7 @@ chmod 600 "$dir/munge.key"
 munged --force --key-file="$dir/munge.key" --socket="$dir/munge.socket" --pid-file="$dir/munged.pid" \
   --log-file="$dir/munged.log" --seed-file="$dir/munge.seed"
 host=$(hostname -s)
-port=$((20000 + $$ % 20000))
+port=$((20000 + $$ % 6000 * 2)) # and the next one
 cat >"$dir/slurm.conf" <<END
 ClusterName=presa
 SlurmctldHost=$host(127.0.0.1)
