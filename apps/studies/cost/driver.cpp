@@ -84,9 +84,9 @@ class Driver {
     if (options_.instructions) timeAll(kCounted);
     progress_->finish();
     if (const std::size_t runs = stopped_ ? 0 : lost(); runs > 0)
-      throw std::runtime_error(std::to_string(runs) + (runs == 1 ? " run was" : " runs were") +
-                               " killed from outside, perhaps for want of memory; the same command with --resume "
-                               "makes what is missing");
+      throw std::runtime_error(std::to_string(runs) + (runs == 1 ? " run" : " runs") +
+                               " left no result: killed from outside, perhaps for want of memory, or crashed; the same "
+                               "command with --resume makes what is missing");
     return !stopped_;
   }
 

@@ -49,7 +49,7 @@ slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study, std::uint6
           .options = a.options};
 }
 
-[[noreturn]] void refuseFailed(const slurm::ArrayRun& array, const std::vector<int>& failed) {
+int tellFailed(const slurm::ArrayRun& array, const std::vector<int>& failed) {
   Diagnostics diagnostics;
   for (const int part : failed) {
     diagnostics.error(
@@ -57,7 +57,8 @@ slurm::ArrayRun arrayOf(const SubmitArguments& a, const Study& study, std::uint6
         "never finished, after " + std::to_string(array.retries + 1) + (array.retries == 0 ? " attempt" : " attempts"),
         "its output is in " + slurm::logOf(array, part) + "; --resume keeps all that was done");
   }
-  throw InputError(std::move(diagnostics));
+  std::fputs(diagnostics.text().c_str(), stderr);
+  return kExitFault;
 }
 
 int submit(const SubmitArguments& a) {
@@ -94,7 +95,7 @@ int submit(const SubmitArguments& a) {
            "--sbatch OPTION gives options to sbatch, such as --sbatch=--partition=NAME");
   }
   if (end.interrupted) return interrupted(study.folder, "the same command and --resume");
-  if (!end.failed.empty()) refuseFailed(array, end.failed);
+  if (!end.failed.empty()) return tellFailed(array, end.failed);
 
   MergeRequest request{.folders = {}, .out = study.folder, .mixed = a.mixed};
   for (int part = 1; part <= a.tasks; ++part) request.folders.push_back(array.folder + "/" + std::to_string(part));
@@ -120,8 +121,7 @@ void addSubmit(Command cost, const std::shared_ptr<bool>& chosen, int& status) {
   command.flag("--mixed", a->mixed, "nodes may differ: all costs are measured again, on this machine");
   command.flag("--resume", a->study->resume, "keep what an interrupted submission has made");
   command.footer(
-      "Exit status: 0 done, 1 the reference could not be run, 2 bad input, no cluster, or a shard that never "
-      "finished,\n"
+      "Exit status: 0 done, 1 a shard never finished or the reference could not be run, 2 bad input or no cluster,\n"
       "130 Ctrl-C (the array is cancelled; --resume goes on).\n"
       "The folder of --out must be seen by all nodes. On one node, your shards measure costs one at a time.\n"
       "Example:  presa cost submit experiments/accuracy_cost/cube_grasp.xml --slurm --tasks 16 --out /scratch/grasp");
