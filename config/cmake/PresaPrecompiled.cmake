@@ -1,5 +1,5 @@
 # Eigen and the standard library take most of the time that a file of Presa takes to compile. They are parsed once for the tree,
-# and once more, with GoogleTest, for the tests (tests/CMakeLists.txt). Files include what they use all the same: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows it.
+# once more for what is compiled quickly, and once more, with GoogleTest, for the tests (tests/CMakeLists.txt). Files include what they use all the same: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows it.
 
 set(presa_common_headers
   <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <atomic> <chrono> <cmath> <cstdint> <cstdio> <cstdlib> <cstring>
@@ -8,6 +8,12 @@ set(presa_common_headers
 
 # Tests spend their time in the libraries, not in their own code, which takes a third less time to compile this way.
 set(presa_test_options $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-Og>)
+
+# So do commands and reports: COMPILED_QUICKLY of presa_library. A first grasp on a bare machine stands 25 s earlier.
+set(presa_quick_options)
+if(CMAKE_BUILD_TYPE STREQUAL Release)
+  set(presa_quick_options -O1)
+endif()
 
 # presa_precompiled(NAME HEADERS… LIBRARIES… OPTIONS…): the object library that others take the parsed headers from
 function(presa_precompiled name)
@@ -36,6 +42,11 @@ function(presa_precompile folder)
       continue()
     endif()
     set(from presa_precompiled_headers)
+    get_target_property(quickly ${target} PRESA_COMPILED_QUICKLY)
+    if(quickly AND presa_quick_options)
+      set(from presa_precompiled_quick_headers)
+      target_compile_options(${target} PRIVATE ${presa_quick_options})
+    endif()
     get_target_property(libraries ${target} LINK_LIBRARIES)
     if(libraries MATCHES "GTest::gtest")
       set(from presa_precompiled_test_headers)
@@ -46,3 +57,6 @@ function(presa_precompile folder)
 endfunction()
 
 presa_precompiled(presa_precompiled_headers HEADERS ${presa_common_headers})
+if(presa_quick_options)
+  presa_precompiled(presa_precompiled_quick_headers HEADERS ${presa_common_headers} OPTIONS ${presa_quick_options})
+endif()
