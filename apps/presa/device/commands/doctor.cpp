@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/common/terminal/status_line.h"
-#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/device/commands/device_commands.h"
 
 namespace presa {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/device/commands/device_commands.h"
 
 namespace presa {
 

@@ -1,4 +1,4 @@
-#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/device/commands/device_commands.h"
 
 namespace presa {
 

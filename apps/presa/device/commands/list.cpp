@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "apps/common/terminal/status_line.h"
-#include "apps/presa/commands/device/device_commands.h"
+#include "apps/presa/device/commands/device_commands.h"
 #include "apps/presa/device/findings.h"
 
 namespace presa {
