@@ -13,10 +13,7 @@ int main(int argc, char** argv) {
             presa::addPlugins(app, status);
             presa::addSchema(app, status);
             presa::addNew(app, status);
-            presa::addModel(app, status);
-            presa::addImport(app, status);
             presa::addReplay(app, status);
-            presa::addDevice(app, status);
             presa::addView(app, status);
             presa::addBus(app, status);
           },

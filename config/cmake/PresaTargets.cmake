@@ -54,11 +54,16 @@ function(presa_unity target)
 endfunction()
 
 # presa_library(NAME SHARED COMPILED_QUICKLY LIBRARIES … ALONE …): a static (or shared) library from every .cpp of the calling folder and
-# below, without its programs (main.cpp). COMPILED_QUICKLY: nothing in it is worth optimising
+# below, without its programs (main.cpp) and without folders that have targets of their own. COMPILED_QUICKLY: nothing in it is worth optimising
 function(presa_library name)
   cmake_parse_arguments(ARG "SHARED;COMPILED_QUICKLY" "" "LIBRARIES;ALONE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   list(FILTER sources EXCLUDE REGEX "/main.cpp$")
+  file(GLOB rooms CONFIGURE_DEPENDS */CMakeLists.txt) # these have targets of their own
+  foreach(room IN LISTS rooms)
+    get_filename_component(room ${room} DIRECTORY)
+    list(FILTER sources EXCLUDE REGEX "^${room}/")
+  endforeach()
   set(kind STATIC)
   if(ARG_SHARED)
     set(kind SHARED)

@@ -107,16 +107,22 @@ std::vector<std::string> programCommands() {
   return names;
 }
 
-/// Lists the other programs of this folder in the help, each under the words of its command.
-void listPrograms(CLI::App& app) {
+/// Lists the programs whose commands stand below `command`, that of `words`, in its help.
+void listPrograms(CLI::App& command, const std::vector<std::string>& words) {
+  std::string above;
+  for (const std::string& word : words) above += word + "-";
+  const std::vector<std::string> all = programCommands();
   for (const fs::path& program : programs()) {
-    const std::string name = commandOf(program);
+    std::string name = commandOf(program);
+    if (!name.starts_with(above)) continue;
+    name.erase(0, above.size());
     const std::size_t dash = name.find('-');
-    const auto groups = app.get_subcommands([&](const CLI::App* command) {
-      return dash != std::string::npos && command->get_name() == name.substr(0, dash);
-    });
+    const std::string first = name.substr(0, dash);
+    if (dash != std::string::npos && std::ranges::find(all, above + first) != all.end()) continue;  // lists it itself
+    const auto groups = command.get_subcommands(
+        [&](const CLI::App* group) { return dash != std::string::npos && group->get_name() == first; });
     CLI::App* group = groups.empty() ? nullptr : groups.front();
-    (group != nullptr ? *group : app)
+    (group != nullptr ? *group : command)
         .add_subcommand(group != nullptr ? name.substr(dash + 1) : name, summaryOf(program));
   }
 }
@@ -142,8 +148,8 @@ void turnHelp(int argc, char** argv) {
   argv[argc - 1] = help;
 }
 
-void parse(CLI::App& app, std::vector<std::string> words, const Program& program) {
-  requireCommand(app, words, program.words.empty() ? programCommands() : std::vector<std::string>{});
+void parse(CLI::App& app, std::vector<std::string> words) {
+  requireCommand(app, words, programCommands());
   std::reverse(words.begin(), words.end());  // as the option parser takes them
   try {
     app.parse(std::move(words));
@@ -167,16 +173,16 @@ int runProgram(int argc, char** argv, const Program& program) {
   app.footer(program.footer);
   int status = kExitOk;
   program.declare(Command(app), status);
+  CLI::App* command = &app;
+  for (const std::string& word : program.words) command = command->get_subcommand(word);
   if (argc == 2 && std::strcmp(argv[1], "--summary") == 0 && !program.words.empty()) {
-    const CLI::App* command = &app;
-    for (const std::string& word : program.words) command = command->get_subcommand(word);
     std::puts(command->get_description().c_str());
     return kExitOk;
   }
   offerFolders(app);
-  if (program.words.empty() && asksForHelp(argc, argv)) listPrograms(app);
+  if (asksForHelp(argc, argv)) listPrograms(*command, program.words);
   try {
-    parse(app, wordsOf(argc, argv, program), program);
+    parse(app, wordsOf(argc, argv, program));
   } catch (const InputError& error) {
     std::fputs(error.diagnostics().text().c_str(), stderr);
     return kExitBadInput;

@@ -12,14 +12,11 @@ void addExplain(Command app, int& status);
 void addPlugins(Command app, int& status);
 void addSchema(Command app, int& status);
 void addNew(Command app, int& status);
-void addModel(Command app, int& status);
-void addImport(Command app, int& status);
 void addReplay(Command app, int& status);
 void addView(Command app, int& status);
 void addBus(Command app, int& status);
 void addBusList(Command bus, int& status);
 void addBusSet(Command bus, int& status);
 void addBusKeys(Command bus, int& status);
-void addDevice(Command app, int& status);
 
 }  // namespace presa

@@ -1,11 +1,13 @@
+#include "apps/presa/import/import_command.h"
+
 #include <cstdio>
 #include <memory>
 
+#include "apps/common/exit_status.h"
 #include "apps/common/replace_all.h"
 #include "apps/common/scratch_folder.h"
 #include "apps/common/terminal/waiting.h"
 #include "apps/presa/check/start_warnings.h"
-#include "apps/presa/commands/commands.h"
 #include "apps/presa/import/import_robot.h"
 
 namespace presa {

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDigits = 9;  // every number of single precision as it is
+constexpr int kRoundTripDigits = 9;  // every number of single precision as it is
 
 /// The element that is `left` elements after `element`, in the order of their start tags; counts `left` down.
 std::optional<xml::Element> elementAfter(const xml::Element& element, std::size_t& left) {
@@ -155,7 +155,7 @@ std::string Preparation::meshFile(const std::string& path, const SourceLocation&
   if (mesh.triangles.empty()) return {};
   const std::string name = fs::path(path).stem().string().substr(0, 60) + "_" + std::to_string(meshes_.size()) + ".obj";
   made = (scratch_ / name).string();
-  writeFileAtomically(made, objText(mesh, kDigits));
+  writeFileAtomically(made, objText(mesh, kRoundTripDigits));
   return made;
 }
 

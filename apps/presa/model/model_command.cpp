@@ -1,9 +1,11 @@
+#include "apps/presa/model/model_command.h"
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "apps/common/exit_status.h"
 #include "apps/common/terminal/job_progress.h"
-#include "apps/presa/commands/commands.h"
 #include "apps/presa/model/model_files.h"
 
 namespace presa {

@@ -1,9 +1,11 @@
 #pragma once
-#include "apps/presa/commands/commands.h"
+#include "apps/common/exit_status.h"
+#include "apps/common/options/command_line.h"
 
 namespace presa {
 
-/// `presa device …`, one per subcommand.
+/// `presa device`. Each function adds commands, which store their exit status in `status`.
+void addDevice(Command app, int& status);
 void addDeviceList(Command app, int& status);
 void addDeviceCheck(Command app, int& status);
 void addDeviceDoctor(Command app, int& status);
