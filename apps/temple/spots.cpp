@@ -9,9 +9,8 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kReachX = 0.3, kFront = -0.15, kBack = 0.15;  // [m]
-constexpr double kRoom = 3.5;         // field area over the blocks' area; blocks without room fall onto others
+constexpr double kSpotRoom = 3.5;     // field area over the blocks' area; blocks without room fall onto others
 constexpr double kSiteBorder = 0.01;  // [m]
 constexpr double kBorder = 0.02;      // min distance of a block's origin from the field's edge [m]
 constexpr double kGap = 0.004;        // between a falling block and blocks at rest [m]
@@ -45,7 +44,8 @@ Quat drawTurn(const Vec3& extent, RandomStream& random) {
   const double side = random.uniform() < 0.5 ? 1 : -1;
   const Quat face = rotationBetween(side * Vec3::Unit(down), Vec3::UnitZ());
   const double max = axes.size() == 3 ? kTilt : kTiltOfSlab;
-  const double towards = random.uniform(0, 2 * kPi), tilt = random.uniform(0, max), turn = random.uniform(0, 2 * kPi);
+  const double towards = random.uniform(0, 2 * std::numbers::pi), tilt = random.uniform(0, max),
+               turn = random.uniform(0, 2 * std::numbers::pi);
   return Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) *
          Quat(Eigen::AngleAxisd(tilt, Vec3(std::cos(towards), std::sin(towards), 0))) * face;
 }
@@ -59,9 +59,9 @@ std::vector<Vec3> cornersOf(const Block& block, const Pose& X_WB) {
       corners.push_back(
           0.5 * box->size.cwiseProduct(Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1)));
   } else if (const Cylinder* rod = std::get_if<Cylinder>(&block.physics)) {
-    const double around = rod->radius / std::cos(kPi / kSides);
+    const double around = rod->radius / std::cos(std::numbers::pi / kSides);
     for (int i = 0; i < kSides; ++i) {
-      const double angle = 2 * kPi * i / kSides;
+      const double angle = 2 * std::numbers::pi * i / kSides;
       for (const double z : {-0.5, 0.5})
         corners.push_back({around * std::cos(angle), around * std::sin(angle), z * rod->length});
     }
@@ -75,7 +75,7 @@ std::vector<Vec3> cornersOf(const Block& block, const Pose& X_WB) {
 Field fieldFor(const Building& building) {
   double area = 0;
   for (const Block& block : building.blocks) area += areaFromAbove(block);
-  const double share = std::min(1.0, std::sqrt(kRoom * area / (2 * kReachX * (kBack - kFront))));
+  const double share = std::min(1.0, std::sqrt(kSpotRoom * area / (2 * kReachX * (kBack - kFront))));
   Field field{-share * kReachX, share * kReachX, share * kFront, kBack, {0, 0, 0, 0}};
   const Footing& widest = building.footings.front();
   field.site = {
@@ -89,7 +89,8 @@ Spots::Shadow Spots::shadowOf(const std::vector<Vec3>& corners) {
   for (const Vec3& corner : corners) {
     shadow.top = std::max(shadow.top, corner.z());
     for (int i = 0; i < kDirections; ++i) {
-      const double along = std::cos(kPi * i / kDirections) * corner.x() + std::sin(kPi * i / kDirections) * corner.y();
+      const double along = std::cos(std::numbers::pi * i / kDirections) * corner.x() +
+                           std::sin(std::numbers::pi * i / kDirections) * corner.y();
       const auto at = static_cast<std::size_t>(i);
       shadow.low[at] = std::min(shadow.low[at], along);
       shadow.high[at] = std::max(shadow.high[at], along);

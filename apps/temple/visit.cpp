@@ -26,8 +26,8 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kPutDown = 0.15;    // as what a stone is heard that is put into its place [m/s]
-constexpr double kShownFinish = 10;  // pause after the hands have finished, before the next ruins [s]
+constexpr double kPutDownSpeed = 0.15;  // as what a stone is heard that is put into its place [m/s]
+constexpr double kShownFinish = 10;     // pause after the hands have finished, before the next ruins [s]
 // after completion: until the next task is offered, until it begins, and since the last touch at the least [s]
 constexpr double kOffered = 12, kOnward = 60, kOnwardUntouched = 30;
 
@@ -152,7 +152,7 @@ class Visit {
     std::vector<Hit> hits = hits_->take();
     for (const GuideEvent& event : events)
       if (event.kind == GuideEvent::Kind::kPlaced && event.body != kNoBody)
-        hits.push_back({event.time, kPutDown, hits_->lengthOf(static_cast<std::size_t>(event.body))});
+        hits.push_back({event.time, kPutDownSpeed, hits_->lengthOf(static_cast<std::size_t>(event.body))});
     for (const Hit& hit : hits) {
       if (loudspeaker_) loudspeaker_->play(strikeOf(hit));
       if (!settings_.sound_file.empty()) heard_.push_back(strikeOf(hit));

@@ -7,10 +7,11 @@
 namespace presa::assembling {
 namespace {
 
-constexpr double kMaxAskew = 0.25, kAskewStep = 0.05;               // angle of the line to level across the top [rad]
-constexpr double kLowest = 0.002, kHighest = 0.02, kStep = 0.0015;  // height of the line above the centre of mass [m]
-constexpr double kAskewCosts = 0.02;                                // [m/rad]
-constexpr double kOfCone = 0.7;                                     // usable share of the friction angle
+constexpr double kMaxAskew = 0.25, kAskewStep = 0.05;  // angle of the line to level across the top [rad]
+constexpr double kLowest = 0.002, kHighest = 0.02,
+                 kWedgeStep = 0.0015;  // height of the line above the centre of mass [m]
+constexpr double kAskewCosts = 0.02;   // [m/rad]
+constexpr double kOfCone = 0.7;        // usable share of the friction angle
 
 /// Intersection of a line with the surface of a convex mesh.
 struct Exit {
@@ -45,7 +46,7 @@ std::optional<Grasp> graspOfLyingMesh(const World& world, std::size_t i, const P
   double best_score = 0;
   for (double askew = -kMaxAskew; askew <= kMaxAskew + kAskewStep / 2; askew += kAskewStep) {
     const Vec3 a_W = Quat(Eigen::AngleAxisd(askew, Vec3::UnitZ())) * level_W;
-    for (double above = kLowest; above < kHighest; above += kStep) {
+    for (double above = kLowest; above < kHighest; above += kWedgeStep) {
       const double score = above - kAskewCosts * std::abs(askew);
       if (best && score <= best_score) continue;
       Grasp grasp = graspAlong(world, i, X_WB, Vec3::Zero(), a_W, yaw);

@@ -6,15 +6,15 @@
 namespace presa::percro {
 namespace {
 
-constexpr double kPeriod = 1e-3, kPatience = 90;  // [s]
+constexpr double kModelPeriod = 1e-3, kPatience = 90;  // [s]
 
 }  // namespace
 
 SwitchedOn::SwitchedOn(const Parameters& parameters, const Vec3& gravity, const Markers& markers, RandomStream& stream)
     : parameters_(parameters),
       markers_(markers),
-      arm_(parameters, gravity, kPeriod),
-      homing_(parameters, markers, kPeriod) {
+      arm_(parameters, gravity, kModelPeriod),
+      homing_(parameters, markers, kModelPeriod) {
   for (int i = 0; i < 3; ++i) zero_[i] = std::nearbyint(stream.uniform(-2e4, 2e4));
   arm_.encoders().powerUp(zero_);
   const double tilt = stream.uniform(-0.4, 0.4), yaw = stream.uniform(-0.4, 0.4);
@@ -31,13 +31,13 @@ void SwitchedOn::look() {
 
 void SwitchedOn::step(const TipLoad& load) {
   look();
-  arm_.commandJoints(homing_.step(arm_.encoders().joints(), arm_.encoders().jointRates(kPeriod), covered_));
+  arm_.commandJoints(homing_.step(arm_.encoders().joints(), arm_.encoders().jointRates(kModelPeriod), covered_));
   arm_.advance(load);
   fastest_ = std::max(fastest_, arm_.state().v.norm());
 }
 
 const Homing& SwitchedOn::home(const TipLoad& load) {
-  for (int i = 0; i < kPatience / kPeriod && !homing_.done() && homing_.failure() == Homing::Failure::kNone; ++i)
+  for (int i = 0; i < kPatience / kModelPeriod && !homing_.done() && homing_.failure() == Homing::Failure::kNone; ++i)
     step(load);
   if (homing_.done())
     arm_.encoders().setZero(transmission(parameters_.geometry) * homing_.offset() / parameters_.motors.count());

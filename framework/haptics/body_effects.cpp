@@ -9,9 +9,9 @@ namespace presa {
 namespace {
 
 // A sum of several terms may exceed the bound by rounding.
-constexpr double kRounding = 1 + 1e-9;
+constexpr double kBoundRounding = 1 + 1e-9;
 
-std::unique_ptr<BodyEffect> make(const PluginElement& element, std::size_t bodies) {
+std::unique_ptr<BodyEffect> makeEffect(const PluginElement& element, std::size_t bodies) {
   const auto& table = pluginTable<BodyEffectPlugin>(element.plugin, "presaBodyEffectPlugin");
   return madeFor(element, [&] { return table.create(element, bodies); });
 }
@@ -21,7 +21,7 @@ bool isRate(double rate) { return rate >= 0 && std::isfinite(rate); }
 // Comparisons are written so that NaN fails.
 bool keepsContract(const BodyEffectWrench& wrench, double max_force, double max_torque) {
   const BodyEffectRates& rates = wrench.rates;
-  return wrench.f_W.norm() <= max_force * kRounding && wrench.torque_W.norm() <= max_torque * kRounding &&
+  return wrench.f_W.norm() <= max_force * kBoundRounding && wrench.torque_W.norm() <= max_torque * kBoundRounding &&
          isRate(rates.damping) && isRate(rates.stiffness) && isRate(rates.turn_damping) && isRate(rates.turn_stiffness);
 }
 
@@ -42,7 +42,7 @@ BodyEffects::BodyEffects(const World& world) {
   const Scene& scene = world.scene;
   for (const PluginElement& element : scene.plugin_elements) {
     if (element.kind != PluginKind::kBodyEffect || !actsOnFreeBody(scene, element)) continue;
-    effects_.push_back({make(element, scene.bodies.size()), nameOf(element, scene), boundOf(element, "max_force"),
+    effects_.push_back({makeEffect(element, scene.bodies.size()), nameOf(element, scene), boundOf(element, "max_force"),
                         boundOf(element, "max_torque"), element.body});
   }
 }

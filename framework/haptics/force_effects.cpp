@@ -11,7 +11,7 @@ namespace {
 // A sum of several terms may exceed the bound by rounding.
 constexpr double kForceRounding = 1 + 1e-9;
 
-std::unique_ptr<ForceEffect> make(const PluginElement& element, std::size_t tools) {
+std::unique_ptr<ForceEffect> makeForce(const PluginElement& element, std::size_t tools) {
   const auto& table = pluginTable<ForceEffectPlugin>(element.plugin, "presaForceEffectPlugin");
   return madeFor(element, [&] { return table.create(element, tools); });
 }
@@ -22,7 +22,7 @@ ForceEffects::ForceEffects(const World& world) {
   const Scene& scene = world.scene;
   for (const PluginElement& element : scene.plugin_elements) {
     if (element.kind != PluginKind::kForceEffect) continue;
-    Effect effect{make(element, scene.devices.size()), nameOf(element, scene), boundOf(element, "max_force"),
+    Effect effect{makeForce(element, scene.devices.size()), nameOf(element, scene), boundOf(element, "max_force"),
                   boundOf(element, "max_torque"), element.body};
     if (element.body != kNoBody && !scene.bodies[static_cast<std::size_t>(element.body)].fixed) {
       const auto known = std::find(moving_.begin(), moving_.end(), element.body);

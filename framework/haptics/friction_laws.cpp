@@ -18,7 +18,7 @@ class Frictionless final : public FrictionLaw {
   }
 };
 
-std::unique_ptr<FrictionLaw> make(const PluginElement& element) {
+std::unique_ptr<FrictionLaw> makeLaw(const PluginElement& element) {
   const auto& table = pluginTable<FrictionLawPlugin>(element.plugin, "presaFrictionLawPlugin");
   return madeFor(element, [&] { return table.create(element); });
 }
@@ -54,7 +54,7 @@ FrictionLaws::FrictionLaws(const Scene& scene) {
     const PluginElement element = frictionLawOf(scene, body.material);
     const FrictionLaw*& law = of_material[body.material];
     if (law == nullptr) {
-      laws_.push_back(make(element));
+      laws_.push_back(makeLaw(element));
       law = laws_.back().get();
     }
     of_body_.push_back(law);

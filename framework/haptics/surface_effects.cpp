@@ -10,8 +10,8 @@
 namespace presa {
 namespace {
 
-constexpr double kMinCosine = 0.5;      // of the angle by which effects may turn a force
-constexpr double kRounding = 1 + 1e-9;  // a stiffness may exceed its bound by rounding
+constexpr double kMinCosine = 0.5;               // of the angle by which effects may turn a force
+constexpr double kStiffnessRounding = 1 + 1e-9;  // a stiffness may exceed its bound by rounding
 
 bool needsProxy(const std::string& plugin) {
   const Manifest* manifest = findManifest(plugin);
@@ -80,7 +80,7 @@ bool SurfaceEffects::apply(std::int32_t body, const SurfaceInput& input, Surface
   for (const Effect& each : of_body_[static_cast<std::size_t>(body)]) {
     each.effect->apply(input, contact);
     const double sum = contact.depth + contact.nhat.sum() + contact.tangential.sum();
-    if (std::isfinite(sum) && contact.stiffness >= 0 && contact.stiffness <= kRounding * stiffness) continue;
+    if (std::isfinite(sum) && contact.stiffness >= 0 && contact.stiffness <= kStiffnessRounding * stiffness) continue;
     const Effect* none = nullptr;
     broken_.compare_exchange_strong(none, &each, std::memory_order_acq_rel);
   }

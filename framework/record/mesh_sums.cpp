@@ -12,7 +12,7 @@
 namespace presa {
 namespace {
 
-constexpr std::size_t kMaxMeshBytes = 60'000;  // an attribute of HDF5 holds 64 KiB
+constexpr std::size_t kMaxListBytes = 60'000;  // an attribute of HDF5 holds 64 KiB
 
 std::string linesOf(const Scene& scene) {
   std::set<std::string> files;
@@ -41,7 +41,7 @@ std::map<std::string, std::string> read(const std::string& sums) {
 
 std::string meshSumsOf(const Scene& scene) {
   const std::string lines = linesOf(scene);
-  return lines.size() <= kMaxMeshBytes ? lines : sha256OfText(lines) + " *\n";
+  return lines.size() <= kMaxListBytes ? lines : sha256OfText(lines) + " *\n";
 }
 
 std::vector<std::string> changedMeshes(const std::string& recording, const Scene& scene) {

@@ -9,6 +9,7 @@
 #include "framework/scene/scene_facts.h"
 #include "framework/scene/schemas.h"
 #include "framework/scene/xml/escaped.h"
+#include "framework/scene/xml/listed.h"
 #include "framework/scene/xml/schema.h"
 #include "framework/scene/xml/value_rule.h"
 #include "framework/scene/xml/xml.h"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Code { kMissing = 590, kBroken = 593, kTaken = 594, kAgainstKind = 595 };
+enum ManifestCode { kNoManifest = 590, kBroken = 593, kTaken = 594, kAgainstKind = 595 };
 
 constexpr const char* kPrefix = "presa_";
 
@@ -29,12 +30,6 @@ Manifest::Attribute readAttribute(const xml::Element& element) {
 }
 
 using Place = Manifest::Place;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
 
 /// Kinds as they are called in manifests and in texts, and where their elements may stand.
 struct KindRule {
@@ -198,7 +193,7 @@ void checkRole(const Manifest& manifest, const xml::Element& root, Diagnostics& 
       const std::vector<std::string>& names = factNames();
       if (std::ranges::find(names, word) != names.end()) continue;
       diagnostics.error(kAgainstKind, wanted.where("when"), "no fact " + quote(word) + didYouMean(word, names),
-                        "facts: " + joined(names));
+                        "facts: " + listed(names));
     }
   }
   if (module && !root.hasAttribute("rate"))
@@ -360,7 +355,8 @@ const Manifest& manifestGiving(const std::string& what) {
   const auto found = std::ranges::find(manifests(), what, &Manifest::gives);
   if (found != manifests().end()) return *found;
   Diagnostics diagnostics;
-  diagnostics.error(kMissing, {}, "no plug-in gives a " + what, "looked for manifests in " + joined(pluginFolders()));
+  diagnostics.error(kNoManifest, {}, "no plug-in gives a " + what,
+                    "looked for manifests in " + listed(pluginFolders()));
   throw InputError(std::move(diagnostics));
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using xml::Element;
 
-enum Code {
+enum FrameCode {
   kUnknownFrame = 416,
   kFrameInItself = 417,
   kDuplicateFrame = 418,

@@ -11,7 +11,7 @@ namespace {
 
 using xml::Element;
 
-enum Code { kVersion = 412, kDuplicateRole = 413, kDuplicateKey = 414, kCapacity = 415 };
+enum RigCode { kRigVersion = 412, kDuplicateRole = 413, kDuplicateKey = 414, kRigCapacity = 415 };
 
 const xml::Schema& rigSchema() {
   static const xml::Schema schema(schemas::rig);
@@ -94,7 +94,7 @@ void checkRoles(const std::vector<Element>& devices, Diagnostics& diagnostics) {
                       "the first is in line " + std::to_string(found->second.line));
   }
   if (devices.size() > static_cast<std::size_t>(kMaxFingers)) {
-    diagnostics.error(kCapacity, devices[static_cast<std::size_t>(kMaxFingers)].where(),
+    diagnostics.error(kRigCapacity, devices[static_cast<std::size_t>(kMaxFingers)].where(),
                       "the rig has " + std::to_string(devices.size()) + " devices, at most " +
                           std::to_string(kMaxFingers) + " are possible");
   }
@@ -106,7 +106,7 @@ Rig readDocument(xml::Document& document, const std::string& directory, Diagnost
   document.validate(rigSchema(), diagnostics);
   const Element root = document.root();
   if (root.name() == rigSchema().root().name) {
-    checkVersion(root, "rig", kVersion, diagnostics);
+    checkVersion(root, "rig", kRigVersion, diagnostics);
     checkRoles(root.children("device"), diagnostics);
     checkFrames(root, diagnostics);
     document.writeDefaults(rigSchema());

@@ -9,6 +9,7 @@
 #include "framework/scene/joints/joint_parts.h"
 #include "framework/scene/manifest.h"
 #include "framework/scene/scene_parts.h"
+#include "framework/scene/xml/listed.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa {
@@ -17,7 +18,7 @@ namespace {
 using xml::Element;
 using xml::numberText;
 
-enum Code {
+enum SceneCode {
   kDuplicateName = 203,
   kUnknownMaterial = 204,
   kNoMaterial = 205,
@@ -53,12 +54,6 @@ std::vector<std::string> valuesOf(const std::vector<Element>& elements, const st
     if (element.hasAttribute(attribute) && known.insert(value).second) values.push_back(value);
   }
   return values;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 std::string lineText(const SourceLocation& where) {

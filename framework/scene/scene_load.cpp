@@ -10,7 +10,7 @@
 namespace presa {
 namespace {
 
-enum Code { kVersion = 201 };
+enum SceneFileCode { kVersion = 201 };
 
 /// How to get the plug-in that brings an unknown element. Plug-ins beside a scene are found, but a library that came
 /// with a scene runs only if the user says so.

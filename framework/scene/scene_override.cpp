@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "framework/scene/scene_parts.h"
+#include "framework/scene/xml/listed.h"
 #include "framework/scene/xml/value_rule.h"
 
 namespace presa {
@@ -10,7 +11,7 @@ namespace {
 using xml::Element;
 using xml::ElementRule;
 
-enum Code { kBadPath = 202 };
+enum PathCode { kBadPath = 202 };
 
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> parts{""};
@@ -22,12 +23,6 @@ std::vector<std::string> split(const std::string& path) {
     }
   }
   return parts;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 /// The attribute that distinguishes elements of one kind; in a path it follows the element's name. "" for single

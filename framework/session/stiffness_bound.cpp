@@ -17,7 +17,7 @@ namespace {
 enum StiffnessBoundCode { kStiffnessBound = 454, kDampingBound = 464 };
 
 /// Relative tolerance: above the rounding of a damping chosen to lie at the bound, too small to be felt.
-constexpr double kRounding = 1e-6;
+constexpr double kAllowedRounding = 1e-6;
 
 bool touchable(const Scene& scene, std::size_t material) {
   for (const Body& body : scene.bodies) {
@@ -94,7 +94,7 @@ std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound&
   if (!(bound.stiffness > 0)) return lowered;
   const double allowed = kStableShare * bound.stiffness;
   const auto lower = [&](const std::string& what, double stiffness, const SourceLocation& where, std::string path) {
-    if (stiffness <= allowed * (1 + kRounding)) return;
+    if (stiffness <= allowed * (1 + kAllowedRounding)) return;
     diagnostics.warning(kStiffnessBound, where, inWords(what, stiffness, allowed, bound),
                         "more damping of hand or device, or a higher haptic rate, allows more");
     lowered.push_back({std::move(path), exactly(allowed)});
@@ -134,7 +134,7 @@ std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bo
   const double allowed = kStableShare * bound.damping;
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
-    if (!touchable(scene, m) || material.damping <= allowed * (1 + kRounding)) continue;
+    if (!touchable(scene, m) || material.damping <= allowed * (1 + kAllowedRounding)) continue;
     diagnostics.warning(kDampingBound, material.where, inWords(material, allowed, bound),
                         "a heavier hand or device, or a higher haptic rate, allows more");
     lowered.push_back({"material/" + material.name + "/damping", exactly(allowed)});

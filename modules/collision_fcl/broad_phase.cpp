@@ -10,7 +10,7 @@ namespace presa {
 namespace {
 
 using Object = fcl::CollisionObject<double>;
-using Sphere = fcl::Sphere<double>;
+using SphereShape = fcl::Sphere<double>;
 
 struct Query {
   Vec3 center;
@@ -27,7 +27,7 @@ std::int32_t indexOf(const Object& object) {
 bool keepNear(Object* a, Object* b, void* data) {
   Query& query = *static_cast<Query*>(data);
   const Object& object = a == query.asking ? *b : *a;
-  const double radius = static_cast<const Sphere*>(object.collisionGeometry().get())->radius;
+  const double radius = static_cast<const SphereShape*>(object.collisionGeometry().get())->radius;
   if ((object.getTranslation() - query.center).norm() <= radius + query.radius) query.out->push_back(indexOf(object));
   return false;
 }
@@ -35,18 +35,18 @@ bool keepNear(Object* a, Object* b, void* data) {
 }  // namespace
 
 struct BroadPhase::Tree {
-  std::vector<std::shared_ptr<Sphere>> spheres;
+  std::vector<std::shared_ptr<SphereShape>> spheres;
   std::vector<std::unique_ptr<Object>> objects;
   std::vector<Object*> moved;
   fcl::DynamicAABBTreeCollisionManager<double> manager;
-  std::shared_ptr<Sphere> asking_sphere = std::make_shared<Sphere>(1.0);
+  std::shared_ptr<SphereShape> asking_sphere = std::make_shared<SphereShape>(1.0);
   Object asking{asking_sphere};
   bool built = false;
 };
 
 BroadPhase::BroadPhase(std::size_t count) : tree_(std::make_unique<Tree>()) {
   for (std::size_t i = 0; i < count; ++i) {
-    tree_->spheres.push_back(std::make_shared<Sphere>(0.0));
+    tree_->spheres.push_back(std::make_shared<SphereShape>(0.0));
     tree_->objects.push_back(std::make_unique<Object>(tree_->spheres.back()));
     tree_->objects.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(i)));
   }
@@ -56,7 +56,7 @@ BroadPhase::BroadPhase(std::size_t count) : tree_(std::make_unique<Tree>()) {
 BroadPhase::~BroadPhase() = default;
 
 void BroadPhase::place(std::size_t i, const Vec3& center, double radius) {
-  Sphere& sphere = *tree_->spheres[i];
+  SphereShape& sphere = *tree_->spheres[i];
   Object& object = *tree_->objects[i];
   if (sphere.radius != radius) {
     sphere.radius = radius;

@@ -8,7 +8,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kRounding = 1e-6;
+constexpr double kStandInRounding = 1e-6;
 
 Pose poseOf(dGeomID geom) {
   dQuaternion q;
@@ -82,7 +82,7 @@ Vec3 GrownGeom::onTrueShape(const Vec3& p) const {
 // grown shape lies on it. (ODE's round caps are octagons, 8 % too wide.)
 void GrownGeom::takeBack(Vec3& p_W, double& depth, const Vec3& outward_W) const {
   const Vec3 p = X_WG_.inverseTimes(p_W), outward = X_WG_.q.conjugate() * outward_W;
-  const double allowed = std::max(0.0, outside(p)) + kRounding * margin_;
+  const double allowed = std::max(0.0, outside(p)) + kStandInRounding * margin_;
   Vec3 on_grown = p;
   for (const double part : {0.5, 1.0}) {
     const Vec3 other = p + part * depth * outward;

@@ -7,7 +7,7 @@
 namespace presa::view {
 namespace {
 
-constexpr double kBlur = 0.006;  ///< a shadow reaches beyond its caster's outline by this much [m]
+constexpr double kShadowBlur = 0.006;  ///< a shadow reaches beyond its caster's outline by this much [m]
 
 bool differ(std::span<const Vec3> a, std::span<const Vec3> b, double tolerance) {
   return !std::ranges::equal(a, b, [=](const Vec3& p, const Vec3& q) { return (p - q).norm() < tolerance; });
@@ -89,7 +89,7 @@ void ChangeWatch::addWithShadow(const std::vector<Vec3>& corners) {
     changes_.points.push_back(p);
     for (const Vec3& light : lights_) {
       const Vec3 foot = p - std::max(0.0, (p.z() - lowest_) / light.z()) * light;
-      for (const double side : {-kBlur, kBlur}) {
+      for (const double side : {-kShadowBlur, kShadowBlur}) {
         changes_.points.emplace_back(foot + side * Vec3(1, 1, 0));
         changes_.points.emplace_back(foot + side * Vec3(1, -1, 0));
       }

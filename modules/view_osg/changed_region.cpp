@@ -9,7 +9,7 @@
 namespace presa::view {
 namespace {
 
-constexpr int kMargin = 2;  // [pixel]
+constexpr int kPixelMargin = 2;  // [pixel]
 
 class CornerCollector final : public osg::NodeVisitor {
  public:
@@ -49,10 +49,10 @@ PixelRect changedPixels(const Changes& changes, const osg::Matrixd& view_project
     low = std::min(low, y), high = std::max(high, y);
   }
   const auto begin = [](double at, int size) {
-    return static_cast<int>(std::clamp(std::floor(at) - kMargin, 0.0, 1.0 * size));
+    return static_cast<int>(std::clamp(std::floor(at) - kPixelMargin, 0.0, 1.0 * size));
   };
   const auto end = [](double at, int size) {
-    return static_cast<int>(std::clamp(std::ceil(at) + kMargin, 0.0, 1.0 * size));
+    return static_cast<int>(std::clamp(std::ceil(at) + kPixelMargin, 0.0, 1.0 * size));
   };
   const int x = begin(left, width), y = begin(low, height);
   return {x, y, end(right, width) - x, end(high, height) - y};

@@ -19,8 +19,8 @@ const std::array<Vec3, 4> kHeat{Vec3(0.03, 0.16, 0.62), Vec3(0.02, 0.48, 0.34), 
                                 Vec3(0.85, 0.02, 0.01)};
 const Vec3 kUnknown(0.25, 0.25, 0.25);
 const Vec3 kLineColor(0.95, 0.10, 0.55);
-constexpr double kLineRadius = 0.004;  // [m]
-constexpr int kAround = 10;            // pieces of its section
+constexpr double kFigureLine = 0.004;  // [m]
+constexpr int kSectionPieces = 10;     // pieces of its section
 constexpr double kHeatShades = 50;
 constexpr Roundness kFineFigure{40, 8}, kQuickFigure{24, 6};  ///< of parts of a few centimetres
 
@@ -30,14 +30,14 @@ ShadedMesh barAlong(const std::vector<Vec3>& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vec3 along = (line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]).normalized();
     const Vec3 u = along.unitOrthogonal(), v = along.cross(u);
-    for (int k = 0; k < kAround; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kAround;
+    for (int k = 0; k < kSectionPieces; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kSectionPieces;
       const Vec3 normal = std::cos(angle) * u + std::sin(angle) * v;
-      mesh.positions.emplace_back((line[i] + kLineRadius * normal).cast<float>());
+      mesh.positions.emplace_back((line[i] + kFigureLine * normal).cast<float>());
       mesh.normals.emplace_back(normal.cast<float>());
       if (i + 1 == line.size()) continue;
-      const auto low = static_cast<std::uint32_t>(i) * kAround, high = low + kAround;
-      const auto here = static_cast<std::uint32_t>(k), next = static_cast<std::uint32_t>((k + 1) % kAround);
+      const auto low = static_cast<std::uint32_t>(i) * kSectionPieces, high = low + kSectionPieces;
+      const auto here = static_cast<std::uint32_t>(k), next = static_cast<std::uint32_t>((k + 1) % kSectionPieces);
       for (const std::uint32_t corner : {low + here, low + next, high + next, low + here, high + next, high + here})
         mesh.indices.push_back(corner);
     }

@@ -1,4 +1,6 @@
 #include "modules/view_osg/device_panel.h"
+#include "modules/view_osg/hud_widgets.h"
+#include "modules/view_osg/ink.h"
 
 #include <algorithm>
 #include <array>
@@ -8,17 +10,12 @@
 namespace presa::view {
 namespace {
 
-constexpr float kMargin = 18, kWidth = 372, kInset = 14, kHead = 54, kRow = 34, kColumn = 76, kGap = 14, kFoot = 8;
+constexpr float kHead = 54, kRow = 34, kColumn = 76, kGap = 14, kFoot = 8;
 constexpr double kFullBar = 1e-3;  ///< deflection of a full bar [m]
 const osg::Vec4 kLineBar(0.98F, 0.35F, 0.77F, 1);
 
 float rightOf(std::size_t column, std::size_t columns) {
-  return -kMargin - kInset - static_cast<float>(columns - 1 - column) * (kColumn + kGap);
-}
-
-osg::Vec4 displayed(const Vec3& linear) {
-  const auto code = [](double c) { return static_cast<float>(std::pow(c, 1 / 2.2)); };
-  return {code(linear.x()), code(linear.y()), code(linear.z()), 1};
+  return -kMargin - kSideInset - static_cast<float>(columns - 1 - column) * (kColumn + kGap);
 }
 
 }  // namespace
@@ -36,11 +33,11 @@ DevicePanel::DevicePanel(osg::Group& right, Of what, const std::vector<DeviceFig
   }
   right.addChild(group_);
   height_ = kHead + kRow * static_cast<float>(devices.size()) + kFoot;
-  const float left = -kMargin - kWidth;
-  group_->addChild(roundedPanel({left, -height_, kWidth, height_}, 8, ink.panel));
-  Label(*group_, left + kInset, -22, 16, ink.text, Typeface::kBold)
+  const float left = -kMargin - kSideWidth;
+  group_->addChild(roundedPanel({left, -height_, kSideWidth, height_}, 8, ink.panel));
+  Label(*group_, left + kSideInset, -22, 16, ink.text, Typeface::kBold)
       .set(what == Of::kHeat ? "motor heat [%]" : "deflection [mm]");
-  Label(*group_, -kMargin - kInset, -22, 13, ink.soft, Typeface::kRegular, Label::Align::kRight).set(note.data());
+  Label(*group_, -kMargin - kSideInset, -22, 13, ink.soft, Typeface::kRegular, Label::Align::kRight).set(note.data());
   for (std::size_t i = 0; i < columns.size(); ++i)
     Label(*group_, rightOf(i, columns.size()), -44, 13, ink.soft, Typeface::kRegular, Label::Align::kRight)
         .set(columns[i]);
@@ -49,7 +46,7 @@ DevicePanel::DevicePanel(osg::Group& right, Of what, const std::vector<DeviceFig
 }
 
 void DevicePanel::addRow(const std::string& role, float top, std::size_t columns, const Ink& ink) {
-  Label(*group_, -kMargin - kWidth + kInset, top - 16, 15, ink.text, Typeface::kBold).set(role);
+  Label(*group_, -kMargin - kSideWidth + kSideInset, top - 16, 15, ink.text, Typeface::kBold).set(role);
   std::vector<Value> row;
   for (std::size_t i = 0; i < columns; ++i) {
     const float right = rightOf(i, columns);

@@ -13,12 +13,12 @@
 namespace presa::view {
 namespace {
 
-constexpr double kCell = 1.5e-4;      // [m]
-constexpr int kBlock = 4;             // cells: a block is drawn whole, or not where the face has ended
-constexpr double kAround = 0.015;     // radius of a patch [m]
-constexpr double kLift = 2e-4;        // distance from the face, against flicker [m]
-constexpr double kOnFace = 2e-5;      // a point this near to the surface is on it [m]
-constexpr double kFaceWithin = 2e-3;  // the touched face is this near to the touched point: textures press it in [m]
+constexpr double kCell = 1.5e-4;        // [m]
+constexpr int kBlock = 4;               // cells: a block is drawn whole, or not where the face has ended
+constexpr double kPatchRadius = 0.015;  // radius of a patch [m]
+constexpr double kReliefLift = 2e-4;    // distance from the face, against flicker [m]
+constexpr double kOnFace = 2e-5;        // a point this near to the surface is on it [m]
+constexpr double kFaceWithin = 2e-3;    // the touched face is this near to the touched point: textures press it in [m]
 const Vec3 kHollow(0.02, 0.05, 0.16), kCrest(1.0, 0.86, 0.55);
 
 struct FlatSide {
@@ -111,18 +111,18 @@ void FeltRelief::add(Patch& patch, const FingerContact& finger, const Pose& X_WB
   const osg::Vec3 normal = toOsg(Vec3(X_WT.q * Vec3::UnitZ()));
   const Vec3 middle_T = X_BT.inverseTimes(face->p_B);
   constexpr double kWide = kBlock * kCell;
-  const auto first = [](double at) { return static_cast<int>(std::floor((at - kAround) / kWide)); };
+  const auto first = [](double at) { return static_cast<int>(std::floor((at - kPatchRadius) / kWide)); };
   const auto corner = [&](int ix, int iy) {
     const Vec3 p_T(ix * kCell, iy * kCell, 0);
-    patch.corners->push_back(toOsg(X_WT * Vec3(p_T.x(), p_T.y(), kLift)));
+    patch.corners->push_back(toOsg(X_WT * Vec3(p_T.x(), p_T.y(), kReliefLift)));
     patch.normals->push_back(normal);
     patch.heights.push_back(heightOn(finger.body, p_T));
   };
-  const int blocks = static_cast<int>(std::ceil(2 * kAround / kWide));
+  const int blocks = static_cast<int>(std::ceil(2 * kPatchRadius / kWide));
   for (int bx = first(middle_T.x()); bx <= first(middle_T.x()) + blocks; ++bx) {
     for (int by = first(middle_T.y()); by <= first(middle_T.y()) + blocks; ++by) {
       const Vec3 p_T((bx + 0.5) * kWide, (by + 0.5) * kWide, 0);
-      if ((p_T - middle_T).norm() > kAround || !faceNear(haptic, tree, X_BT * p_T, kOnFace)) continue;
+      if ((p_T - middle_T).norm() > kPatchRadius || !faceNear(haptic, tree, X_BT * p_T, kOnFace)) continue;
       const auto base = static_cast<unsigned>(patch.corners->size());
       for (int i = 0; i <= kBlock; ++i)
         for (int j = 0; j <= kBlock; ++j) corner(bx * kBlock + i, by * kBlock + j);

@@ -16,7 +16,7 @@ namespace {
 constexpr int kSide = 64;                  // size of the tile [texel]
 constexpr int kUnit = 2, kGroundUnit = 3;  // texture units; 0 and 1 belong to lighting
 constexpr int kGroundSide = 512;           // size of the ground's tile [texel]
-constexpr int kCoarsest = 4;               // cells of the first octave per tile
+constexpr int kCoarsestCells = 4;          // cells of the first octave per tile
 constexpr int kOctaves = 4;
 
 /// Periodic noise in [0, 1] on a lattice of `cells` per side and `depth` along z.
@@ -76,8 +76,8 @@ float sum(const Octaves& octaves, float x, float y, float z) {
 /// Luminance: clouds of four octaves. Alpha: veins, at the zero crossings of a second such noise.
 osg::ref_ptr<osg::Image> makeTile() {
   std::mt19937 random(20);
-  const Octaves clouds = makeOctaves(kCoarsest, kOctaves, false, random);
-  const Octaves veins = makeOctaves(kCoarsest, kOctaves, false, random);
+  const Octaves clouds = makeOctaves(kCoarsestCells, kOctaves, false, random);
+  const Octaves veins = makeOctaves(kCoarsestCells, kOctaves, false, random);
   osg::ref_ptr<osg::Image> tile = new osg::Image;
   tile->allocateImage(kSide, kSide, kSide, GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE);
   for (int z = 0; z < kSide; ++z) {

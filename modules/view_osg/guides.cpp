@@ -16,9 +16,9 @@ namespace {
 
 const Vec3 kPlaceColor(0.30, 0.85, 0.45), kMissingColor(1.0, 0.52, 0.08), kArrow(1.0, 0.62, 0.05);
 constexpr float kFaint = 0.16F, kStrong = 0.30F;
-constexpr double kPulsePeriod = 1.4;                              // period of pulsation [s]
-constexpr double kHead = 0.016, kShaft = 0.006, kLength = 0.036;  // sizes of the arrow [m]
-constexpr double kAbove = 0.008, kBob = 0.005;                    // mean height over the block, and its variation [m]
+constexpr double kPulsePeriod = 1.4;                                   // period of pulsation [s]
+constexpr double kArrowHead = 0.016, kShaft = 0.006, kLength = 0.036;  // sizes of the arrow [m]
+constexpr double kAbove = 0.008, kBob = 0.005;  // mean height over the block, and its variation [m]
 
 /// Pulsation between 0 and 1.
 float pulse(double time) {
@@ -34,10 +34,10 @@ Guides::Guides(const Scene& scene, BodyNodes& bodies) : scene_(scene), bodies_(b
 
   // tip down
   osg::ref_ptr<osg::MatrixTransform> head =
-      new osg::MatrixTransform(alongZ({0, 0, kHead}, -Vec3::UnitZ(), {0.010, 0.010, kHead}));
+      new osg::MatrixTransform(alongZ({0, 0, kArrowHead}, -Vec3::UnitZ(), {0.010, 0.010, kArrowHead}));
   head->addChild(unitConeUp(kArrow));
-  osg::ref_ptr<osg::MatrixTransform> shaft =
-      new osg::MatrixTransform(alongZ({0, 0, kHead}, Vec3::UnitZ(), {kShaft / 2, kShaft / 2, kLength - kHead}));
+  osg::ref_ptr<osg::MatrixTransform> shaft = new osg::MatrixTransform(
+      alongZ({0, 0, kArrowHead}, Vec3::UnitZ(), {kShaft / 2, kShaft / 2, kLength - kArrowHead}));
   shaft->addChild(unitShaft(kArrow));
   arrow_->addChild(head);
   arrow_->addChild(shaft);

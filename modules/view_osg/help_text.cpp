@@ -3,11 +3,11 @@
 namespace presa::view {
 namespace {
 
-using Lines = std::vector<HelpLine>;
+using HelpLines = std::vector<HelpLine>;
 
-void append(Lines& lines, Lines more) { lines.insert(lines.end(), more.begin(), more.end()); }
+void append(HelpLines& lines, HelpLines more) { lines.insert(lines.end(), more.begin(), more.end()); }
 
-Lines pairLines() {
+HelpLines pairLines() {
   return {{"", "pair of fingers"},
           {"left drag", "over the ground"},
           {"Shift + left drag", "up, down and aside"},
@@ -18,15 +18,15 @@ Lines pairLines() {
           {"Shift + key", "a fifth of the step"}};
 }
 
-Lines frameLines() {
+HelpLines frameLines() {
   return {{"", "user and workspace, while held"},
           {"Alt + arrows, PageUp …", "walk and turn, fly"},
           {"v", "clutch: the workspace slides back"},
           {"z  x", "zoom: coarser, finer"}};
 }
 
-Lines cameraLines(bool pair) {
-  Lines lines{{"", "camera"}};
+HelpLines cameraLines(bool pair) {
+  HelpLines lines{{"", "camera"}};
   if (pair) {
     append(lines, {{"right drag, Alt + left drag", "turn around the scene"},
                    {"middle drag", "shift"},
@@ -45,8 +45,8 @@ Lines cameraLines(bool pair) {
   return lines;
 }
 
-Lines timeLines(bool recording) {
-  Lines lines{{"", "time"}, {"space", "hold, go on"}, {".", "a single step"}, {"[  ]", "half and double speed"}};
+HelpLines timeLines(bool recording) {
+  HelpLines lines{{"", "time"}, {"space", "hold, go on"}, {".", "a single step"}, {"[  ]", "half and double speed"}};
   if (recording)
     append(lines, {{"drag on the bar", "to that moment"},
                    {",  <  >", "a step back, a second back and on"},
@@ -54,7 +54,7 @@ Lines timeLines(bool recording) {
   return lines;
 }
 
-Lines partLines() {
+HelpLines partLines() {
   return {{"", "show and hide"},
           {"1  2  3", "looks, haptic and physics geometry"},
           {"4", "triangles near the fingers"},
@@ -69,7 +69,7 @@ Lines partLines() {
 }  // namespace
 
 std::vector<HelpLine> helpLines(const Controls& controls, bool recording) {
-  Lines lines;
+  HelpLines lines;
   if (controls.pointer != nullptr) append(lines, pairLines());
   if (controls.frames != nullptr) append(lines, frameLines());
   append(lines, cameraLines(controls.pointer != nullptr));

@@ -8,6 +8,8 @@
 
 #include "framework/device/output_stage.h"
 #include "modules/view_osg/contact_glyphs.h"
+#include "modules/view_osg/hud_widgets.h"
+#include "modules/view_osg/ink.h"
 #include "modules/view_osg/legend.h"
 #include "modules/view_osg/visit_screen.h"
 
@@ -16,20 +18,8 @@ namespace {
 
 const osg::Vec4 kAlarm(1.0F, 0.42F, 0.36F, 1);
 const osg::Vec4 kGripInk(0.36F, 0.72F, 1.0F, 1);
-constexpr float kMargin = 18, kCardWidth = 262, kCardHeight = 61, kCardPitch = 66, kCardsTop = 636;
+constexpr float kCardWidth = 262, kCardHeight = 61, kCardPitch = 66, kCardsTop = 636;
 constexpr float kRatesWidth = 268, kSentenceLeft = 168;
-
-template <class... Values>
-std::string print(const char* format, Values... values) {
-  std::array<char, 96> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
-osg::Vec4 displayColor(const Vec3& linear, float alpha = 1) {
-  const auto encode = [](double c) { return static_cast<float>(std::pow(std::clamp(c, 0.0, 1.0), 1 / 2.2)); };
-  return {encode(linear.x()), encode(linear.y()), encode(linear.z()), alpha};
-}
 
 const char* stateWord(const FingerView& finger) {
   if (!finger.valid) return "no signal";
@@ -258,16 +248,16 @@ void Hud::addLegend(bool interactive) {
     Label label(*strip, x, kY - 4.5F, 12.5F, ink_.text);
     label.set(words);
   };
-  strip->addChild(dot(8, kY, 5, displayColor(kHipColor)));
+  strip->addChild(dot(8, kY, 5, displayed(kHipColor)));
   entry(20, "HIP");
-  strip->addChild(dot(66, kY, 9, displayColor(kSkinColor)));
+  strip->addChild(dot(66, kY, 9, displayed(kSkinColor)));
   entry(82, "fingertip (proxy)");
   strip->addChild(
-      polygon({{206, kY - 1.5F}, {224, kY - 1.5F}, {224, kY + 1.5F}, {206, kY + 1.5F}}, displayColor(kArrowColor)));
-  strip->addChild(polygon({{223, kY - 6}, {235, kY}, {223, kY + 6}}, displayColor(kArrowColor)));
-  entry(242, print("force on finger, 1 N = %.0f mm", 1000 * kArrowLengthPerNewton).c_str());
+      polygon({{206, kY - 1.5F}, {224, kY - 1.5F}, {224, kY + 1.5F}, {206, kY + 1.5F}}, displayed(kArrowColor)));
+  strip->addChild(polygon({{223, kY - 6}, {235, kY}, {223, kY + 6}}, displayed(kArrowColor)));
+  entry(242, printed("force on finger, 1 N = %.0f mm", 1000 * kArrowLengthPerNewton).c_str());
   const auto wedge = [&](float x, ContactMode mode) {
-    strip->addChild(polygon({{x + 7, kY - 8}, {x + 14, kY + 7}, {x, kY + 7}}, displayColor(stateColor(mode), 0.9F)));
+    strip->addChild(polygon({{x + 7, kY - 8}, {x + 14, kY + 7}, {x, kY + 7}}, displayed(stateColor(mode), 0.9F)));
   };
   wedge(446, ContactMode::kStick);
   wedge(463, ContactMode::kSlip);
@@ -300,14 +290,14 @@ void Hud::setHelp(const std::vector<std::pair<std::string, std::string>>& lines)
 }
 
 void Hud::updateCard(Card& card, const FingerView& finger) {
-  const osg::Vec4 color = displayColor(stateColor(finger.mode));
+  const osg::Vec4 color = displayed(stateColor(finger.mode));
   card.role.set(finger.role);
   card.state.set(stateWord(finger));
   recolor(*card.lamp, color);
-  card.forces.set(print("normal %5.2f N  tang. %5.2f N", finger.normal_force, finger.tangential_force));
+  card.forces.set(printed("normal %5.2f N  tang. %5.2f N", finger.normal_force, finger.tangential_force));
   card.bar.set(finger.frictionUse(), color);
   if (finger.touches())
-    card.use.set(print("%3.0f %% of \xc2\xb5N, \xc2\xb5 %.2f", 100 * finger.frictionUse(), finger.friction));
+    card.use.set(printed("%3.0f %% of \xc2\xb5N, \xc2\xb5 %.2f", 100 * finger.frictionUse(), finger.friction));
   else
     card.use.set("friction used");
 }
@@ -319,22 +309,22 @@ void Hud::updateRates(const GroupTimings& timings) {
     // no wall-clock period: a run in virtual time, whose rates are nominal
     const double mean_ns = timing ? timing->period.mean() : 0.0;
     if (mean_ns > 0) {
-      line.rate.set(print("%.0f / %.0f Hz", 1e9 / mean_ns, line.nominal));
-      line.missed.set(print("%llu", static_cast<unsigned long long>(timing->missed + timing->skipped)));
+      line.rate.set(printed("%.0f / %.0f Hz", 1e9 / mean_ns, line.nominal));
+      line.missed.set(printed("%llu", static_cast<unsigned long long>(timing->missed + timing->skipped)));
       line.missed.setColor(timing->missed + timing->skipped > 0 ? kAlarm : ink_.text);
     } else {
-      line.rate.set(known && !timing ? "not needed" : print("%.0f Hz", line.nominal));
+      line.rate.set(known && !timing ? "not needed" : printed("%.0f Hz", line.nominal));
       line.missed.set("\xe2\x80\x93");
     }
   }
 }
 
 void Hud::update(const ViewFrame& frame, const std::vector<FingerView>& fingers, const GroupTimings& timings) {
-  time_->set(print("t = %7.3f s", frame.time));
+  time_->set(printed("t = %7.3f s", frame.time));
   for (std::size_t i = 0; i < cards_.size() && i < fingers.size(); ++i) updateCard(cards_[i], fingers[i]);
   if (grip_value_) {
     const double grip = gripForce(fingers);
-    grip_value_->set(print("%.2f of %.0f N", grip, grip_scale_));
+    grip_value_->set(printed("%.2f of %.0f N", grip, grip_scale_));
     grip_bar_->set(grip / grip_scale_, kGripInk);
   }
   updateRates(timings);

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdio>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osgText/Text>
@@ -6,6 +8,17 @@
 
 /// Two-dimensional parts of the head-up display, in pixels of a picture 720 lines high, y up. Colours are sRGB.
 namespace presa::view {
+
+constexpr float kMargin = 18;                       ///< between panels and the border of the picture
+constexpr float kSideWidth = 372, kSideInset = 14;  ///< of the panels on the right: width, and margin of their text
+
+/// printf into a string of at most 159 characters.
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+  std::array<char, 160> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
 
 struct Rect {
   float x, y, width, height;

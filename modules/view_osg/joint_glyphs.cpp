@@ -13,13 +13,14 @@ namespace presa::view {
 namespace {
 
 const Vec3 kFrameColor(0.30, 0.08, 0.85), kHandColor(0.20, 0.85, 0.08);
-constexpr double kOfBody = 0.6, kSmallest = 0.006, kLargest = 0.10;  ///< size: share of the body's radius, bounds [m]
+constexpr double kOfBody = 0.6, kSmallestGlyph = 0.006,
+                 kLargestGlyph = 0.10;  ///< size: share of the body's radius, bounds [m]
 // relative to the size
-constexpr double kThick = 0.035, kAxis = 1.2, kDisc = 0.24, kDiscHeight = 0.10, kBall = 0.30, kBlock = 0.36,
+constexpr double kThick = 0.035, kAxis = 1.2, kDisc = 0.24, kDiscHeight = 0.10, kBall = 0.30, kStopBlock = 0.36,
                  kStop = 0.45;
 constexpr double kPieces = 48;  ///< of a full turn
 
-osg::ref_ptr<osg::MatrixTransform> part(osg::Group& parent, const osg::Matrixd& place, osg::Node* shape) {
+osg::ref_ptr<osg::MatrixTransform> glyphPart(osg::Group& parent, const osg::Matrixd& place, osg::Node* shape) {
   osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(place);
   transform->addChild(shape);
   parent.addChild(transform);
@@ -27,7 +28,7 @@ osg::ref_ptr<osg::MatrixTransform> part(osg::Group& parent, const osg::Matrixd& 
 }
 
 void addRod(osg::Group& parent, const Vec3& from, const Vec3& to, double radius, const Vec3& color) {
-  part(parent, alongZ(from, to - from, {radius, radius, (to - from).norm()}), unitShaft(color, kQuick));
+  glyphPart(parent, alongZ(from, to - from, {radius, radius, (to - from).norm()}), unitShaft(color, kQuick));
 }
 
 /// Part of a ring about z, of round section, from one angle to another.
@@ -83,7 +84,7 @@ JointGlyphs::JointGlyphs(const Scene& scene, const JointMotion& motion, const Bo
     Glyph glyph{new osg::MatrixTransform, new osg::MatrixTransform, new osg::MatrixTransform, nullptr, 0};
     double radius = bodies.radius(joint.body);
     if (joint.to != Joint::kWorld && !scene.bodies[joint.to].fixed) radius = std::min(radius, bodies.radius(joint.to));
-    glyph.size = std::clamp(kOfBody * radius, kSmallest, kLargest);
+    glyph.size = std::clamp(kOfBody * radius, kSmallestGlyph, kLargestGlyph);
     for (osg::MatrixTransform* place : {glyph.X_WA.get(), glyph.X_WB.get(), glyph.slid.get()}) {
       place->setDataVariance(osg::Object::DYNAMIC);
       solid_->addChild(place);
@@ -91,7 +92,7 @@ JointGlyphs::JointGlyphs(const Scene& scene, const JointMotion& motion, const Bo
     const double s = glyph.size;
     switch (joint.type) {
       case JointType::kFixed:
-        glyph.X_WB->addChild(boxGeometry(Vec3::Constant(kBlock * s), kFrameColor));
+        glyph.X_WB->addChild(boxGeometry(Vec3::Constant(kStopBlock * s), kFrameColor));
         break;
       case JointType::kBall:
         glyph.X_WB->addChild(sphereGeometry(kBall * s, kFrameColor, kQuick));
@@ -130,7 +131,7 @@ void JointGlyphs::addTurning(const Joint& joint, std::size_t axis, const Pose& X
   addRod(*fixed, -kAxis * s / 2 * Vec3::UnitZ(), kAxis * s / 2 * Vec3::UnitZ(), 1.5 * thick, kFrameColor);
   fixed->addChild(cylinderGeometry(kDisc * s, kDiscHeight * s, kFrameColor, kQuick));
   addRod(*moving, Vec3::Zero(), s * heading(zero), thick, kHandColor);
-  part(*moving, toOsg(Pose{s * heading(zero), Quat::Identity()}), sphereGeometry(2.2 * thick, kHandColor, kQuick));
+  glyphPart(*moving, toOsg(Pose{s * heading(zero), Quat::Identity()}), sphereGeometry(2.2 * thick, kHandColor, kQuick));
   const JointAxis& range = joint.axes[axis];
   if (!range.lower && !range.upper) return;
   const double open = std::numbers::pi / 6;  // drawn beyond the start where there is no stop
@@ -144,12 +145,12 @@ void JointGlyphs::addTurning(const Joint& joint, std::size_t axis, const Pose& X
 
 void JointGlyphs::addSliding(const JointAxis& axis, Glyph& glyph) {
   const double s = glyph.size, thick = kThick * s;
-  glyph.travel = part(*glyph.X_WA, osg::Matrixd::identity(), unitShaft(kFrameColor, kQuick));
+  glyph.travel = glyphPart(*glyph.X_WA, osg::Matrixd::identity(), unitShaft(kFrameColor, kQuick));
   glyph.travel->setDataVariance(osg::Object::DYNAMIC);
   for (const std::optional<double>& stop : {axis.lower, axis.upper})
     if (stop)
-      part(*glyph.X_WA, toOsg(Pose{*stop * Vec3::UnitZ(), Quat::Identity()}),
-           boxGeometry({kStop * s, kStop * s, 2 * thick}, kFrameColor));
+      glyphPart(*glyph.X_WA, toOsg(Pose{*stop * Vec3::UnitZ(), Quat::Identity()}),
+                boxGeometry({kStop * s, kStop * s, 2 * thick}, kFrameColor));
   glyph.X_WB->addChild(cylinderGeometry(kDisc * s, 3 * thick, kHandColor, kQuick));
 }
 

@@ -13,7 +13,7 @@ namespace presa::view {
 namespace {
 
 constexpr std::array kRings{1.0, 1.06, 1.15, 1.3, 1.55, 1.9, 2.4, 3.0, 3.7, 4.6, 5.6, 6.8, 8.2, 10.0, 12.0};
-constexpr Roundness kAround{180, 1};
+constexpr Roundness kHorizon{180, 1};
 
 double step(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -43,7 +43,7 @@ osg::ref_ptr<osg::Node> makeLandscape(const Vec3& middle, double radius, double 
   std::vector<ProfilePoint> profile;
   for (const double r : kRings) profile.push_back({r, 0, 0, 1});
   std::ranges::reverse(profile);  // seen from above
-  const osg::ref_ptr<osg::Geometry> land = revolve(profile, Vec3::Ones(), kAround);
+  const osg::ref_ptr<osg::Geometry> land = revolve(profile, Vec3::Ones(), kHorizon);
   auto& points = static_cast<osg::Vec3Array&>(*land->getVertexArray());
   auto& normals = static_cast<osg::Vec3Array&>(*land->getNormalArray());
   const auto heightAt = [](double x, double y) { return landHeight(std::hypot(x, y), std::atan2(-x, y)); };

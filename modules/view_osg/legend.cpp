@@ -6,31 +6,27 @@
 
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/hud_widgets.h"
+#include "modules/view_osg/ink.h"
 
 namespace presa::view {
 namespace {
 
-constexpr float kMargin = 18, kWidth = 372, kRow = 37, kLetters = 23, kInset = 14, kMarks = 66;
+constexpr float kLegendRow = 37, kLetters = 23, kMarks = 66;
 constexpr int kRows = 5;
-
-osg::Vec4 displayed(const Vec3& linear, float alpha = 1) {
-  const auto code = [](double c) { return static_cast<float>(std::pow(std::min(1.0, c), 1 / 2.2)); };
-  return {code(linear.x()), code(linear.y()), code(linear.z()), alpha};
-}
 
 }  // namespace
 
 void addLegend(osg::Group& right, float bottom, const Ink& ink) {
-  const float left = -kMargin - kWidth, height = kRows * kRow + 2 * 6;
-  right.addChild(roundedPanel({left, bottom, kWidth, height}, 8, ink.panel));
-  const float mark = left + kInset + 22;  // middle of the marks
-  float y = bottom + height - 6 - kRow / 2;
+  const float left = -kMargin - kSideWidth, height = kRows * kLegendRow + 2 * 6;
+  right.addChild(roundedPanel({left, bottom, kSideWidth, height}, 8, ink.panel));
+  const float mark = left + kSideInset + 22;  // middle of the marks
+  float y = bottom + height - 6 - kLegendRow / 2;
   const auto words = [&](float x, const char* text) {
     Label(right, x, y - 0.34F * kLetters, kLetters, ink.text).set(text);
   };
   const auto row = [&](const char* text) {
     words(left + kMarks, text);
-    y -= kRow;
+    y -= kLegendRow;
   };
 
   right.addChild(dot(mark, y, 7, displayed(kHipColor)));

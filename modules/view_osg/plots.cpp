@@ -1,4 +1,5 @@
 #include "modules/view_osg/plots.h"
+#include "modules/view_osg/hud_widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +10,14 @@
 namespace presa::view {
 namespace {
 
-constexpr float kWidth = 262, kHeight = 84, kPitch = 90, kMargin = 18, kBottom = 126, kInset = 12, kCurveHeight = 46;
-constexpr float kNumbers = 36;                                                            // for the numbers of an axis
-constexpr float kLeft = kMargin + kInset + kNumbers, kRight = kMargin + kWidth - kInset;  // of the curves
-constexpr float kCurveBottom = 10;  // above the lower edge of a panel
-const osg::Vec4 kPanel(0.05F, 0.07F, 0.10F, 0.74F), kInk(0.95F, 0.96F, 0.98F, 1), kAxis(0.55F, 0.59F, 0.65F, 1);
+constexpr float kPlotWidth = 262, kPlotHeight = 84, kPlotPitch = 90, kPlotBottom = 126, kPlotInset = 12,
+                kCurveHeight = 46;
+constexpr float kNumbers = 36;  // for the numbers of an axis
+constexpr float kPlotLeft = kMargin + kPlotInset + kNumbers,
+                kPlotRight = kMargin + kPlotWidth - kPlotInset;  // of the curves
+constexpr float kCurveBottom = 10;                               // above the lower edge of a panel
+const osg::Vec4 kPlotPanel(0.05F, 0.07F, 0.10F, 0.74F), kPlotInk(0.95F, 0.96F, 0.98F, 1),
+    kPlotAxis(0.55F, 0.59F, 0.65F, 1);
 const std::array<osg::Vec4, 4> kCurves{osg::Vec4(0.35F, 0.85F, 1.0F, 1), osg::Vec4(1.0F, 0.66F, 0.2F, 1),
                                        osg::Vec4(0.6F, 0.95F, 0.5F, 1), osg::Vec4(0.95F, 0.5F, 0.85F, 1)};
 constexpr std::array<const char*, 3> kTitles{"normal force [N], last 5 s", "penetration [mm], last 5 s",
@@ -33,7 +37,7 @@ osg::ref_ptr<osg::Geometry> curve(const osg::Vec4& color) {
 
 /// The axis and the line of its upper end, one unit thick.
 osg::ref_ptr<osg::Geometry> line(float x, float y, float width, float height) {
-  return polygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, kAxis);
+  return polygon({{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, kPlotAxis);
 }
 
 /// The smallest of 1, 2 and 5 times a power of ten that is not below the value: the axis seldom changes.
@@ -57,16 +61,17 @@ Plots::Plots(osg::Group& left, const World& world)
   left.addChild(group_);
   group_->setNodeMask(0);
   for (std::size_t q = 0; q < kQuantities; ++q) {
-    const float bottom = kBottom + kPitch * static_cast<float>(kQuantities - 1 - q);
-    group_->addChild(roundedPanel({kMargin, bottom, kWidth, kHeight}, 8, kPanel));
-    const float zero = bottom + kCurveBottom, numbers = kLeft - 6;
-    group_->addChild(line(kLeft, zero, kRight - kLeft, 1));
-    group_->addChild(line(kLeft, zero, 1, kCurveHeight));
-    group_->addChild(line(kLeft - 3, zero + kCurveHeight, 3, 1));
-    Panel panel{Label(*group_, kMargin + kInset, bottom + kHeight - 18, 13, kInk, Typeface::kBold),
-                Label(*group_, numbers, zero + kCurveHeight - 4, 11, kInk, Typeface::kRegular, Label::Align::kRight),
-                {}};
-    Label(*group_, numbers, zero - 4, 11, kInk, Typeface::kRegular, Label::Align::kRight).set("0");
+    const float bottom = kPlotBottom + kPlotPitch * static_cast<float>(kQuantities - 1 - q);
+    group_->addChild(roundedPanel({kMargin, bottom, kPlotWidth, kPlotHeight}, 8, kPlotPanel));
+    const float zero = bottom + kCurveBottom, numbers = kPlotLeft - 6;
+    group_->addChild(line(kPlotLeft, zero, kPlotRight - kPlotLeft, 1));
+    group_->addChild(line(kPlotLeft, zero, 1, kCurveHeight));
+    group_->addChild(line(kPlotLeft - 3, zero + kCurveHeight, 3, 1));
+    Panel panel{
+        Label(*group_, kMargin + kPlotInset, bottom + kPlotHeight - 18, 13, kPlotInk, Typeface::kBold),
+        Label(*group_, numbers, zero + kCurveHeight - 4, 11, kPlotInk, Typeface::kRegular, Label::Align::kRight),
+        {}};
+    Label(*group_, numbers, zero - 4, 11, kPlotInk, Typeface::kRegular, Label::Align::kRight).set("0");
     panel.title.set(kTitles[q]);
     for (std::size_t f = 0; f < (q == kRate ? 1 : fingers_); ++f) {
       panel.curves.push_back(curve(kCurves[f % kCurves.size()]));
@@ -119,14 +124,14 @@ void Plots::draw(Quantity quantity) {
   }
   top = roundedUp(top);
   panels_[quantity].top.set(numberText(top));
-  const float bottom = kBottom + kPitch * static_cast<float>(kQuantities - 1 - quantity) + kCurveBottom;
+  const float bottom = kPlotBottom + kPlotPitch * static_cast<float>(kQuantities - 1 - quantity) + kCurveBottom;
   const double begin = moments_.back().time - kSeconds;
   for (std::size_t f = 0; f < panels_[quantity].curves.size(); ++f) {
     osg::ref_ptr<osg::Vec3Array> points = new osg::Vec3Array;
     for (const Moment& moment : moments_) {
       const auto along = static_cast<float>((moment.time - begin) / kSeconds);
       const auto up = static_cast<float>(std::max(0.0, moment.values[quantity][f]) / top);
-      points->push_back({kLeft + (kRight - kLeft) * along, bottom + kCurveHeight * up, 0});
+      points->push_back({kPlotLeft + (kPlotRight - kPlotLeft) * along, bottom + kCurveHeight * up, 0});
     }
     osg::Geometry& line = *panels_[quantity].curves[f];
     line.setVertexArray(points);

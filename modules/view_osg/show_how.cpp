@@ -6,14 +6,14 @@
 namespace presa::view {
 namespace {
 
-const osg::Vec4 kInk(0.97F, 0.96F, 0.93F, 1), kPanel(0.06F, 0.055F, 0.05F, 0.82F);
+const osg::Vec4 kHowInk(0.97F, 0.96F, 0.93F, 1), kHowPanel(0.06F, 0.055F, 0.05F, 0.82F);
 const osg::Vec4 kMouse(0.90F, 0.90F, 0.88F, 1), kSeam(0.45F, 0.45F, 0.46F, 1), kPressed(1.0F, 0.72F, 0.16F, 1);
-const osg::Vec4 kSkin(0.93F, 0.72F, 0.57F, 1), kNail(0.98F, 0.86F, 0.78F, 1), kKey(0.93F, 0.93F, 0.95F, 1);
+const osg::Vec4 kHandSkin(0.93F, 0.72F, 0.57F, 1), kNail(0.98F, 0.86F, 0.78F, 1), kKey(0.93F, 0.93F, 0.95F, 1);
 const osg::Vec4 kKeyInk(0.12F, 0.12F, 0.14F, 1);
-constexpr float kLeft = 18, kBottom = 532, kWidth = 440, kHeight = 170;  // of the panel
-constexpr float kIcon = kLeft + kWidth / 2, kMiddle = kBottom + 112;     // middle of the mouse
-constexpr double kPeriod = 1.8;                                          // of the animation [s]
-constexpr float kSwing = 26, kRoll = 9;                                  // [lines]
+constexpr float kHowLeft = 18, kHowBottom = 532, kHowWidth = 440, kHowHeight = 170;  // of the panel
+constexpr float kIcon = kHowLeft + kHowWidth / 2, kMiddle = kHowBottom + 112;        // middle of the mouse
+constexpr double kPeriod = 1.8;                                                      // of the animation [s]
+constexpr float kSwing = 26, kRoll = 9;                                              // [lines]
 
 osg::ref_ptr<osg::Geometry> arrow(float x, float y, float dx, float dy) {
   const osg::Vec2 tip(x + dx, y + dy), across(-dy * 0.6F, dx * 0.6F);
@@ -36,13 +36,13 @@ void shown(osg::Node& node, bool is) { node.setNodeMask(is ? ~0U : 0U); }
 ShowHow::ShowHow(osg::Group& parent, const Scene& scene) : scene_(scene) {
   root_->setName("show how");
   parent.addChild(root_);
-  root_->addChild(roundedPanel({kLeft, kBottom, kWidth, kHeight}, 14, kPanel));
+  root_->addChild(roundedPanel({kHowLeft, kHowBottom, kHowWidth, kHowHeight}, 14, kHowPanel));
   for (osg::Group* part : {arrows_.get(), shift_.get(), turn_keys_.get()}) root_->addChild(part);
   root_->addChild(mouse_);
   addMouse();
   addKeys();
-  does_.emplace(*root_, kIcon, kBottom + 36, 20, kInk, Typeface::kBold, Label::Align::kCenter);
-  keys_.emplace(*root_, kIcon, kBottom + 13, 16, kPressed, Typeface::kRegular, Label::Align::kCenter);
+  does_.emplace(*root_, kIcon, kHowBottom + 36, 20, kHowInk, Typeface::kBold, Label::Align::kCenter);
+  keys_.emplace(*root_, kIcon, kHowBottom + 13, 16, kPressed, Typeface::kRegular, Label::Align::kCenter);
   shown(*root_, false);
 }
 
@@ -59,11 +59,11 @@ void ShowHow::addMouse() {
   wheel_ = roundedPanel({-4, 11, 8, 17}, 4, kSeam);
   mouse_->addChild(wheel_);
   // the palm, three fingers beside the mouse, and the index finger
-  mouse_->addChild(roundedPanel({-24, -56, 50, 46}, 20, kSkin));
-  mouse_->addChild(roundedPanel({-31, -34, 12, 36}, 6, kSkin));
-  mouse_->addChild(roundedPanel({13, -30, 12, 46}, 6, kSkin));
+  mouse_->addChild(roundedPanel({-24, -56, 50, 46}, 20, kHandSkin));
+  mouse_->addChild(roundedPanel({-31, -34, 12, 36}, 6, kHandSkin));
+  mouse_->addChild(roundedPanel({13, -30, 12, 46}, 6, kHandSkin));
   mouse_->addChild(finger_);
-  finger_->addChild(roundedPanel({-6, -28, 12, 48}, 6, kSkin));
+  finger_->addChild(roundedPanel({-6, -28, 12, 48}, 6, kHandSkin));
   finger_->addChild(roundedPanel({-3.5F, 10, 7, 8}, 3, kNail));
 }
 

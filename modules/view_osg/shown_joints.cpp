@@ -10,11 +10,11 @@
 namespace presa::view {
 namespace {
 
-constexpr float kSize = 15, kLetter = 0.602F * kSize, kPad = 6, kHigh = 22;  // DejaVu Sans Mono; [lines]
-constexpr float kAside = 26, kAbove = 30;                                    ///< of a label from its joint [lines]
-constexpr float kHalfHeight = 360, kMargin = 6;
-constexpr double kNearest = 0.01;  ///< in front of the eye [m]
-constexpr double kJump = 0.25;     ///< frames farther apart are not one motion [s]
+constexpr float kJointSize = 15, kJointLetter = 0.602F * kJointSize, kPad = 6, kHigh = 22;  // DejaVu Sans Mono; [lines]
+constexpr float kAside = 26, kJointAbove = 30;  ///< of a label from its joint [lines]
+constexpr float kJointHalfHeight = 360, kJointMargin = 6;
+constexpr double kJointNearest = 0.01;  ///< in front of the eye [m]
+constexpr double kJump = 0.25;          ///< frames farther apart are not one motion [s]
 
 std::size_t lettersOf(const std::string& utf8) {
   return static_cast<std::size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -37,7 +37,7 @@ void ShownJoints::make() {
     texts_->addChild(place);
     osg::ref_ptr<osg::Geometry> panel = roundedPanel({0, 0, 1, kHigh}, 0.4F, ink_.panel);
     place->addChild(panel);
-    beside_.push_back({place, panel, Label(*place, kPad, 6, kSize, ink_.text, Typeface::kMono)});
+    beside_.push_back({place, panel, Label(*place, kPad, 6, kJointSize, ink_.text, Typeface::kMono)});
   }
 }
 
@@ -78,7 +78,7 @@ void ShownJoints::write(JointLabel& label, const std::string& text) {
   const std::size_t letters = lettersOf(text);
   if (letters == label.letters) return;
   label.letters = letters;
-  const float width = kLetter * static_cast<float>(letters) + 2 * kPad;
+  const float width = kJointLetter * static_cast<float>(letters) + 2 * kPad;
   label.panel->setVertexArray(roundedPanel({0, 0, width, kHigh}, 5, ink_.panel)->getVertexArray());
   label.panel->setPrimitiveSet(
       0, new osg::DrawArrays(GL_TRIANGLE_FAN, 0, static_cast<int>(label.panel->getVertexArray()->getNumElements())));
@@ -88,9 +88,9 @@ void ShownJoints::write(JointLabel& label, const std::string& text) {
 // Beside the point and inside the picture; below the labels that it would cover.
 Rect ShownJoints::placeOf(const JointLabel& label, double right, double up, const std::vector<Rect>& taken) const {
   const auto half_width = static_cast<float>(labels_.getMatrix().getTrans().x());
-  Rect rect{0, 0, kLetter * static_cast<float>(label.letters) + 2 * kPad, kHigh};
-  rect.x = std::min(std::round(static_cast<float>(right) + kAside), half_width - kMargin - rect.width);
-  rect.y = std::min(std::round(static_cast<float>(up) + kAbove), kHalfHeight - kMargin - kHigh);
+  Rect rect{0, 0, kJointLetter * static_cast<float>(label.letters) + 2 * kPad, kHigh};
+  rect.x = std::min(std::round(static_cast<float>(right) + kAside), half_width - kJointMargin - rect.width);
+  rect.y = std::min(std::round(static_cast<float>(up) + kJointAbove), kJointHalfHeight - kJointMargin - kHigh);
   for (const Rect& other : taken)
     if (rect.x < other.x + other.width && other.x < rect.x + rect.width && rect.y < other.y + kHigh &&
         other.y < rect.y + kHigh)
@@ -105,10 +105,10 @@ void ShownJoints::seenFrom(const CameraPose& pose) {
   std::vector<Rect> taken;
   for (JointLabel& label : beside_) {
     const Vec3 d = label.p_W - pose.eye;
-    const double depth = d.dot(forward), lines = kHalfHeight / (slope * std::max(depth, kNearest));
+    const double depth = d.dot(forward), lines = kJointHalfHeight / (slope * std::max(depth, kJointNearest));
     const double right = lines * d.dot(side), up = lines * d.dot(side.cross(forward));
-    const bool seen =
-        depth > kNearest && std::abs(right) < labels_.getMatrix().getTrans().x() && std::abs(up) < kHalfHeight;
+    const bool seen = depth > kJointNearest && std::abs(right) < labels_.getMatrix().getTrans().x() &&
+                      std::abs(up) < kJointHalfHeight;
     label.place->setNodeMask(seen ? ~0U : 0U);
     if (!seen) continue;
     taken.push_back(placeOf(label, right, up, taken));

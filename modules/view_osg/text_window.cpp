@@ -17,19 +17,19 @@
 namespace presa::view {
 namespace {
 
-constexpr int kWidth = 1100, kHeight = 560;
-constexpr float kSize = 18, kLine = 26, kMargin = 18;  // [pixels]
-constexpr float kAdvance = 0.602F;                     // character width of DejaVu Sans Mono, relative to its size
+constexpr int kWindowWidth = 1100, kWindowHeight = 560;
+constexpr float kTypedSize = 18, kTypedLine = 26, kTextMargin = 18;  // [pixels]
+constexpr float kAdvance = 0.602F;  // character width of DejaVu Sans Mono, relative to its size
 
 class OsgTextWindow final : public TextWindow {
  public:
-  explicit OsgTextWindow(const std::string& title) : window_(openWindow(title, kWidth, kHeight).context) {
+  explicit OsgTextWindow(const std::string& title) : window_(openWindow(title, kWindowWidth, kWindowHeight).context) {
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
     viewer_.setKeyEventSetsDone(0);  // Esc is an ordinary key
     osg::Camera* camera = viewer_.getCamera();
     camera->setGraphicsContext(window_);
-    camera->setViewport(0, 0, kWidth, kHeight);
+    camera->setViewport(0, 0, kWindowWidth, kWindowHeight);
     camera->setProjectionResizePolicy(osg::Camera::FIXED);
     camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     camera->setClearColor({0.07F, 0.08F, 0.10F, 1});
@@ -45,14 +45,14 @@ class OsgTextWindow final : public TextWindow {
     if (window_->valid()) window_->close();
   }
 
-  std::size_t columns() const override { return cells(static_cast<float>(typed_->width), kSize * kAdvance); }
-  std::size_t rows() const override { return cells(static_cast<float>(typed_->height), kLine); }
+  std::size_t columns() const override { return cells(static_cast<float>(typed_->width), kTypedSize * kAdvance); }
+  std::size_t rows() const override { return cells(static_cast<float>(typed_->height), kTypedLine); }
   bool closed() const override { return viewer_.done() || !window_->isRealized(); }
 
   void show(const std::vector<Line>& lines) override {
     while (labels_.size() < lines.size()) {
-      const float y = -static_cast<float>(labels_.size() + 1) * kLine;  // below the top edge
-      labels_.emplace_back(*page_, kMargin, y, kSize, osg::Vec4(1, 1, 1, 1), Typeface::kMono);
+      const float y = -static_cast<float>(labels_.size() + 1) * kTypedLine;  // below the top edge
+      labels_.emplace_back(*page_, kTextMargin, y, kTypedSize, osg::Vec4(1, 1, 1, 1), Typeface::kMono);
     }
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       labels_[i].set(i < lines.size() ? lines[i].text : "");
@@ -78,7 +78,7 @@ class OsgTextWindow final : public TextWindow {
 
  private:
   static std::size_t cells(float pixels, float cell) {
-    return static_cast<std::size_t>(std::max(1.0F, (pixels - 2 * kMargin) / cell));
+    return static_cast<std::size_t>(std::max(1.0F, (pixels - 2 * kTextMargin) / cell));
   }
   void frame() {
     if (closed()) return;
@@ -90,7 +90,7 @@ class OsgTextWindow final : public TextWindow {
 
   osg::ref_ptr<osg::GraphicsContext> window_;
   osg::ref_ptr<osg::Group> page_ = new osg::Group;
-  osg::ref_ptr<TypedKeys> typed_ = new TypedKeys(kWidth, kHeight);
+  osg::ref_ptr<TypedKeys> typed_ = new TypedKeys(kWindowWidth, kWindowHeight);
   std::vector<Label> labels_;
   osgViewer::Viewer viewer_;
 };

@@ -9,9 +9,9 @@
 namespace presa::view {
 namespace {
 
-constexpr float kHalfHeight = 360, kHalfWidth = 330, kThick = 9;
+constexpr float kBarHalfHeight = 360, kBarHalfWidth = 330, kBarThick = 9;
 constexpr double kReach = 10;  ///< clickable margin above and below the bar [lines]
-const osg::Vec4 kInk(0.95F, 0.96F, 0.98F, 1), kFilled(0.38F, 0.70F, 1.0F, 1);
+const osg::Vec4 kBarInk(0.95F, 0.96F, 0.98F, 1), kFilled(0.38F, 0.70F, 1.0F, 1);
 
 std::string seconds(double time) {
   std::array<char, 32> text{};
@@ -25,11 +25,11 @@ void TimeBar::offer(const TimeControl& time_control, double length, bool drawn) 
   time_control_ = &time_control;
   length_ = length;
   if (!drawn) return;
-  pace_.emplace(center_, 0, bottom_ + 18, 14, kInk, Typeface::kBold, Label::Align::kCenter);
+  pace_.emplace(center_, 0, bottom_ + 18, 14, kBarInk, Typeface::kBold, Label::Align::kCenter);
   if (length <= 0) return;
-  bar_.emplace(center_, Rect{-kHalfWidth, bottom_, 2 * kHalfWidth, kThick});
-  now_.emplace(center_, -kHalfWidth, bottom_ + 18, 14, kInk, Typeface::kRegular, Label::Align::kLeft);
-  end_.emplace(center_, kHalfWidth, bottom_ + 18, 14, kInk, Typeface::kRegular, Label::Align::kRight);
+  bar_.emplace(center_, Rect{-kBarHalfWidth, bottom_, 2 * kBarHalfWidth, kBarThick});
+  now_.emplace(center_, -kBarHalfWidth, bottom_ + 18, 14, kBarInk, Typeface::kRegular, Label::Align::kLeft);
+  end_.emplace(center_, kBarHalfWidth, bottom_ + 18, 14, kBarInk, Typeface::kRegular, Label::Align::kRight);
   end_->set(seconds(length));
 }
 
@@ -50,7 +50,7 @@ void TimeBar::update(double time) {
 
 std::optional<double> TimeBar::momentAt(double right, double up, bool wherever_up) const {
   if (!bar_) return std::nullopt;
-  const double x = right * kHalfHeight / kHalfWidth, y = up * kHalfHeight - (bottom_ + kThick / 2);
+  const double x = right * kBarHalfHeight / kBarHalfWidth, y = up * kBarHalfHeight - (bottom_ + kBarThick / 2);
   if (!wherever_up && (std::abs(x) > 1 || std::abs(y) > kReach)) return std::nullopt;
   return length_ * std::clamp((x + 1) / 2, 0.0, 1.0);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_range.h"
 #include "apps/common/report/svg_save.h"
 #include "apps/common/report/svg_scale.h"
 #include "apps/common/report/svg_symbols.h"
@@ -15,18 +16,6 @@ using Kind = Layer::Kind;
 
 constexpr double kLeft = 66, kRight = 14, kLegend = 26, kHead = 20, kAxis = 44, kGap = 14;  // margins [px]
 constexpr double kCharacter = 6.6;  // mean width of the labels' font
-
-struct Range {
-  double low = INFINITY, high = -INFINITY;
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value), high = std::max(high, value);
-  }
-  Range widened(double share) const {
-    const double margin = high > low ? share * (high - low) : std::max(1e-9, 0.1 * std::abs(high));
-    return {low - margin, high + margin};
-  }
-};
 
 /// Scales and layout that all facets share.
 struct Axes {

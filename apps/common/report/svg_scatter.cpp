@@ -9,10 +9,10 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 520;                                 // [px]
-constexpr double kLeft = 56, kRight = 506, kPlotHeight = 336;  // plotting area
-constexpr double kTop = 14, kEntryHeight = 18;                 // the legend is above it, where no ray crosses it
-constexpr double kBelow = 50;                                  // its axis and that axis' title
+constexpr double kScatterWidth = 520;                                        // [px]
+constexpr double kScatterLeft = 56, kScatterRight = 506, kPlotHeight = 336;  // plotting area
+constexpr double kScatterTop = 14, kEntryHeight = 18;  // the legend is above it, where no ray crosses it
+constexpr double kBelow = 50;                          // its axis and that axis' title
 
 /// Dots as zero-length strokes, each pixel position once, so that thousands of samples make a small file.
 std::string dots(const Cloud& cloud, const Scale& x, const Scale& y) {
@@ -38,11 +38,12 @@ std::string axes(const ScatterFigure& figure, const Scale& x, const Scale& y) {
     out += textAt(x(value), bottom + 16, "tick xtick", tickText(value, x_ticks[1] - x_ticks[0]));
   }
   for (const double value : y_ticks) {
-    out += lineFromTo(kLeft, y(value), kRight, y(value), "grid");
-    out += textAt(kLeft - 8, y(value) + 4, "tick ytick", tickText(value, y_ticks[1] - y_ticks[0]));
+    out += lineFromTo(kScatterLeft, y(value), kScatterRight, y(value), "grid");
+    out += textAt(kScatterLeft - 8, y(value) + 4, "tick ytick", tickText(value, y_ticks[1] - y_ticks[0]));
   }
-  out += lineFromTo(kLeft, bottom, kRight, bottom, "axis") + lineFromTo(kLeft, top, kLeft, bottom, "axis");
-  out += textAt(0.5 * (kLeft + kRight), bottom + 38, "tick xtick", escape(figure.x_label));
+  out += lineFromTo(kScatterLeft, bottom, kScatterRight, bottom, "axis") +
+         lineFromTo(kScatterLeft, top, kScatterLeft, bottom, "axis");
+  out += textAt(0.5 * (kScatterLeft + kScatterRight), bottom + 38, "tick xtick", escape(figure.x_label));
   out += "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (top + bottom)) + ") rotate(-90)\">" +
          escape(figure.y_label) + "</text>\n";
   return out;
@@ -60,12 +61,12 @@ std::string mark(const Mark& m, const Scale& x, const Scale& y) {
 
 std::string legend(const ScatterFigure& figure) {
   std::string out;
-  double y = kTop;
+  double y = kScatterTop;
   const auto entry = [&](const std::string& symbol, const std::string& label) {
-    out += symbol + textAt(kLeft + 34, y, "legend", escape(label));
+    out += symbol + textAt(kScatterLeft + 34, y, "legend", escape(label));
     y += kEntryHeight;
   };
-  const double at = kLeft + 20;
+  const double at = kScatterLeft + 20;
   for (const Ray& line : figure.rays)
     entry(lineFromTo(at - 9, y - 4, at + 9, y - 4, "ray " + line.css_class), line.label);
   for (const Cloud& cloud : figure.clouds) {
@@ -101,11 +102,11 @@ std::string render(const ScatterFigure& figure) {
   y_high = std::max(1.05 * y_high, 0.3 * x_high);  // at least one ray in view
   const auto clouds = std::ranges::count_if(figure.clouds, [](const Cloud& cloud) { return !cloud.points.empty(); });
   const auto entries = static_cast<double>(figure.rays.size() + figure.marks.size()) + static_cast<double>(clouds);
-  const double top = kTop + kEntryHeight * entries;
-  const Scale x{0, 1.05 * x_high, kLeft, kRight};
+  const double top = kScatterTop + kEntryHeight * entries;
+  const Scale x{0, 1.05 * x_high, kScatterLeft, kScatterRight};
   const Scale y{0, y_high, top + kPlotHeight, top};
 
-  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(top + kPlotHeight + kBelow) +
+  std::string out = "<svg viewBox=\"0 0 " + px(kScatterWidth) + " " + px(top + kPlotHeight + kBelow) +
                     "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" + axes(figure, x, y);
   for (const Cloud& cloud : figure.clouds) out += dots(cloud, x, y);
   for (const Ray& line : figure.rays) out += ray(line, x, y);

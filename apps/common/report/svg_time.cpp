@@ -6,11 +6,11 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 1080, kNoLabels = 1064;     // [px]
-constexpr double kTop = 26, kBottom = 40, kGap = 44;  // above the first panel, below the last, between two
-constexpr double kWideCharacter = 8.2;                // of a short label, where it may not be cut
-constexpr double kRow = 18;                           // a row of names above the first panel
-constexpr std::size_t kMaxEventRows = 3;              // further events have a line but no name
+constexpr double kTimeWidth = 1080, kNoLabels = 1064;             // [px]
+constexpr double kTimeTop = 26, kTimeBottom = 40, kTimeGap = 44;  // above the first panel, below the last, between two
+constexpr double kWideCharacter = 8.2;                            // of a short label, where it may not be cut
+constexpr double kRow = 18;                                       // a row of names above the first panel
+constexpr std::size_t kMaxEventRows = 3;                          // further events have a line but no name
 
 /// Right edge of the plotting area, with room for the names of the curves.
 double rightEdge(const TimeFigure& figure) {
@@ -19,7 +19,7 @@ double rightEdge(const TimeFigure& figure) {
     for (const Series& series : panel.series)
       widest = std::max(widest, static_cast<double>(terminal::widthOf(endLabelOf(panel, series))) * kWideCharacter);
   }
-  return widest > 0 ? kWidth - widest - kSwatch - 14 : kNoLabels;
+  return widest > 0 ? kTimeWidth - widest - kSwatch - 14 : kNoLabels;
 }
 
 template <class Interval>
@@ -95,17 +95,17 @@ std::string render(const TimeFigure& figure) {
   if (figure.time.size() < 2) return "<p class=\"empty\">No samples to plot.</p>\n";
   const Scale x{figure.time.front(), figure.time.back(), kTimeLeft, rightEdge(figure)};
   const TimeFigure shown = clipped(figure, x);
-  const double events_top = kTop - 14 + (shown.bands.empty() ? 0 : kRow);
+  const double events_top = kTimeTop - 14 + (shown.bands.empty() ? 0 : kRow);
   const double event_rows = static_cast<double>(std::min(shown.events.size(), kMaxEventRows));
-  const double first_top = kTop + (shown.bands.empty() ? 0 : 20) + kRow * event_rows;
+  const double first_top = kTimeTop + (shown.bands.empty() ? 0 : 20) + kRow * event_rows;
   std::string panels;
   double top = first_top;
   for (const Panel& panel : shown.panels) {
     panels += panelBody(shown, panel, x, top);
-    top += panel.height + kGap;
+    top += panel.height + kTimeGap;
   }
-  const double bottom = top - kGap;
-  const std::string picture = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(bottom + kBottom) +
+  const double bottom = top - kTimeGap;
+  const std::string picture = "<svg viewBox=\"0 0 " + px(kTimeWidth) + " " + px(bottom + kTimeBottom) +
                               "\" role=\"img\" aria-label=\"" + escape(figure.title) + "\">\n" +
                               bandLabels(shown.bands, x, 12) + panels +
                               eventMarks(shown.events, x, events_top, bottom) + xLabels(figure.x_label, x, bottom) +

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/common/report/svg_range.h"
 #include "apps/common/report/svg_time.h"
 #include "apps/common/terminal/text.h"
 
@@ -9,16 +10,6 @@ namespace presa::svg {
 namespace {
 
 constexpr double kLineHeight = 14, kSpanHeight = 15;  // of labels and of the strips of bodies [px]
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
 
 Range yRange(const Panel& panel) {
   if (!panel.names.empty())

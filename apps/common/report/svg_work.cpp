@@ -9,8 +9,8 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWidth = 520, kHeight = 400;                         // [px]
-constexpr double kLeft = 62, kRight = 506, kTop = 30, kBottom = 350;  // plotting area
+constexpr double kWorkWidth = 520, kWorkHeight = 400;                                 // [px]
+constexpr double kWorkLeft = 62, kWorkRight = 506, kWorkTop = 30, kWorkBottom = 350;  // plotting area
 
 /// Logarithmic map from data to pixels.
 struct LogScale {
@@ -58,43 +58,46 @@ std::vector<std::pair<double, std::string>> ticks(const LogScale& scale) {
 std::string axes(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
   std::string out;
   if (figure.floor > 0) {
-    const double top = std::clamp(y(figure.floor), kTop, kBottom);
-    out += "<rect class=\"floor\" x=\"" + px(kLeft) + "\" y=\"" + px(top) + "\" width=\"" + px(kRight - kLeft) +
-           "\" height=\"" + px(kBottom - top) + "\"/>\n";
+    const double top = std::clamp(y(figure.floor), kWorkTop, kWorkBottom);
+    out += "<rect class=\"floor\" x=\"" + px(kWorkLeft) + "\" y=\"" + px(top) + "\" width=\"" +
+           px(kWorkRight - kWorkLeft) + "\" height=\"" + px(kWorkBottom - top) + "\"/>\n";
   }
   for (const auto& [value, text] : ticks(x))
-    out += lineFromTo(x(value), kTop, x(value), kBottom, "grid") + textAt(x(value), kBottom + 16, "tick xtick", text);
+    out += lineFromTo(x(value), kWorkTop, x(value), kWorkBottom, "grid") +
+           textAt(x(value), kWorkBottom + 16, "tick xtick", text);
   for (const auto& [value, text] : ticks(y))
-    out += lineFromTo(kLeft, y(value), kRight, y(value), "grid") + textAt(kLeft - 8, y(value) + 4, "tick ytick", text);
-  out += lineFromTo(kLeft, kBottom, kRight, kBottom, "axis") + lineFromTo(kLeft, kTop, kLeft, kBottom, "axis");
-  out += textAt(0.5 * (kLeft + kRight), kBottom + 38, "tick xtick", escape(figure.x_label));
-  return out + "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (kTop + kBottom)) +
+    out += lineFromTo(kWorkLeft, y(value), kWorkRight, y(value), "grid") +
+           textAt(kWorkLeft - 8, y(value) + 4, "tick ytick", text);
+  out += lineFromTo(kWorkLeft, kWorkBottom, kWorkRight, kWorkBottom, "axis") +
+         lineFromTo(kWorkLeft, kWorkTop, kWorkLeft, kWorkBottom, "axis");
+  out += textAt(0.5 * (kWorkLeft + kWorkRight), kWorkBottom + 38, "tick xtick", escape(figure.x_label));
+  return out + "<text class=\"tick xtick\" transform=\"translate(14 " + px(0.5 * (kWorkTop + kWorkBottom)) +
          ") rotate(-90)\">" + escape(figure.y_label) + "</text>\n";
 }
 
 std::string levels(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
   std::string out;
   for (const Level& level : figure.x_levels) {
-    out += lineFromTo(x(level.value), kTop, x(level.value), kBottom, "level " + level.css_class);
-    out += "<text class=\"level-label\" transform=\"translate(" + px(x(level.value) - 5) + " " + px(kTop + 6) +
+    out += lineFromTo(x(level.value), kWorkTop, x(level.value), kWorkBottom, "level " + level.css_class);
+    out += "<text class=\"level-label\" transform=\"translate(" + px(x(level.value) - 5) + " " + px(kWorkTop + 6) +
            ") rotate(-90)\">" + escape(level.label) + "</text>\n";
   }
   for (const Level& level : figure.y_levels) {
-    out += lineFromTo(kLeft, y(level.value), kRight, y(level.value), "level " + level.css_class);
-    out += textAt(kLeft + 8, y(level.value) - 5, "known", escape(level.label));
+    out += lineFromTo(kWorkLeft, y(level.value), kWorkRight, y(level.value), "level " + level.css_class);
+    out += textAt(kWorkLeft + 8, y(level.value) - 5, "known", escape(level.label));
   }
   return out;
 }
 
 double heightOf(const WorkPoint& point, const LogScale& y) {
-  return point.failed ? kTop + 8 : point.at.y > 0 ? std::min(y(point.at.y), kBottom) : kBottom;
+  return point.failed ? kWorkTop + 8 : point.at.y > 0 ? std::min(y(point.at.y), kWorkBottom) : kWorkBottom;
 }
 
 std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y, bool below_floor) {
   const double at = x(point.at.x);
   std::string data = " data-name=\"" + escape(point.label) + "\"><title>" + escape(point.label) + "</title>";
   if (point.failed) {
-    const double top = kTop + 8;
+    const double top = kWorkTop + 8;
     return "<path class=\"cross\" d=\"M" + px(at - 5) + " " + px(top - 5) + "l10 10m0 -10l-10 10\"" + data +
            "</path>\n";
   }
@@ -137,18 +140,18 @@ std::string tags(const WorkFigure& figure, const LogScale& x, const LogScale& y)
     }
   }
   for (const Level& level : figure.y_levels)
-    taken.push_back({kLeft, y(level.value) - 17, kLeft + 8 + textWidth(level.label), y(level.value)});
-  return pointLabels(labels, {kLeft + 2, kTop, kRight + 8, kBottom - 2}, taken);
+    taken.push_back({kWorkLeft, y(level.value) - 17, kWorkLeft + 8 + textWidth(level.label), y(level.value)});
+  return pointLabels(labels, {kWorkLeft + 2, kWorkTop, kWorkRight + 8, kWorkBottom - 2}, taken);
 }
 
 /// Rows of symbols and their meaning; `bottom` becomes the height of the figure.
 std::string legendBelow(const WorkFigure& figure, double& bottom) {
   std::string out;
-  double at = kLeft, line = kHeight + 12;
+  double at = kWorkLeft, line = kWorkHeight + 12;
   for (const WorkFigure::Entry& entry : figure.entries) {
     const double width = 30 + textWidth(entry.label);
-    if (at > kLeft && at + width > kRight) {
-      at = kLeft;
+    if (at > kWorkLeft && at + width > kWorkRight) {
+      at = kWorkLeft;
       line += 19;
     }
     out += "<path class=\"work front " + colorClass(entry.color) + "\" d=\"" +
@@ -172,17 +175,17 @@ std::string render(const WorkFigure& figure) {
   for (const Level& level : figure.x_levels) x_span.include(level.value);
   for (const Level& level : figure.y_levels) y_span.include(level.value);
   if (!(y_span.high > 0)) y_span = {0.1, 1};
-  const LogScale x = x_span.over(kLeft, kRight), y = y_span.over(kBottom, kTop + 16);
+  const LogScale x = x_span.over(kWorkLeft, kWorkRight), y = y_span.over(kWorkBottom, kWorkTop + 16);
 
-  double bottom = kHeight;
+  double bottom = kWorkHeight;
   const std::string below = legendBelow(figure, bottom);
-  std::string out = "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(bottom) + "\" role=\"img\" aria-label=\"" +
+  std::string out = "<svg viewBox=\"0 0 " + px(kWorkWidth) + " " + px(bottom) + "\" role=\"img\" aria-label=\"" +
                     escape(figure.title) + "\">\n" + levels(figure, x, y) + axes(figure, x, y);
-  if (!figure.legend.empty()) out += textAt(kLeft + 10, kTop + 14, "legend", escape(figure.legend));
+  if (!figure.legend.empty()) out += textAt(kWorkLeft + 10, kWorkTop + 14, "legend", escape(figure.legend));
   std::string path;
   for (const Point& point : figure.front)
-    path +=
-        (path.empty() ? "M" : "L") + px(x(point.x)) + " " + px(point.y > 0 ? std::min(y(point.y), kBottom) : kBottom);
+    path += (path.empty() ? "M" : "L") + px(x(point.x)) + " " +
+            px(point.y > 0 ? std::min(y(point.y), kWorkBottom) : kWorkBottom);
   if (figure.front.size() > 1) out += "<path class=\"pareto\" d=\"" + path + "\"/>\n";
   // draw the default last, so that no other point hides it
   for (const bool usual : {false, true}) {

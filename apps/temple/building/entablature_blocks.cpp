@@ -20,7 +20,7 @@ struct Extrusion {
 const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
 constexpr double kInset = 0.85;  // scale of the inner part of an end face, which chips leave unchanged
 
-double marginOf(const Proportions& p) { return 1.5 * p.stone.chip_depth; }
+double cutMargin(const Proportions& p) { return 1.5 * p.stone.chip_depth; }
 /// Half the depth of architrave and frieze [m].
 double halfDepth(const Proportions& p) { return 0.5 * p.entablature->depth * p.module; }
 /// Half the depth of the cornices [m].
@@ -41,12 +41,12 @@ void breakCorners(const Proportions& p, const Ring& corners, Ring& first, Ring& 
     const auto at = static_cast<std::size_t>(std::min_element(rim.begin(), rim.end(), nearer) - rim.begin());
     Vec3 inward = center - corner;
     inward = (inward - inward.dot(w) * w).normalized() + (at_first ? w : Vec3(-w));
-    chip(rim, {at, 1.4 * marginOf(p), p.stone.chip_depth * random.uniform(0.6, 1.0)}, inward.normalized());
+    chip(rim, {at, 1.4 * cutMargin(p), p.stone.chip_depth * random.uniform(0.6, 1.0)}, inward.normalized());
   }
 }
 
 TriMesh extrude(const Proportions& p, const Extrusion& shape, RandomStream random) {
-  const double margin = marginOf(p);
+  const double margin = cutMargin(p);
   Ring corners;
   for (const Eigen::Vector2d& point : shape.polygon) corners.push_back(point.x() * shape.u + point.y() * shape.v);
   const Ring line = withMargins(corners, margin);
@@ -128,7 +128,7 @@ Block makeTriglyph(const Proportions& p, double half_metope, RandomStream chips)
   // a corner block has no joint on the side of its half metope
   const double left = -total / 2 + (half_metope < 0 ? 0 : joint), right = total / 2 - (half_metope > 0 ? 0 : joint);
   const double height = (p.entablature->frieze_height + p.entablature->band_height) * p.module;
-  const double band = p.entablature->band_height * p.module, margin = marginOf(p);
+  const double band = p.entablature->band_height * p.module, margin = cutMargin(p);
   const auto at = [&](bool cut, double z) {
     Ring ring = triglyphPlan(p, left, right, axis, cut);
     for (Vec3& point : ring) {

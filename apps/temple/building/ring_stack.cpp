@@ -7,11 +7,10 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kSame = 1e-9;  // points nearer than this become one vertex [m]
-constexpr double kPi = std::numbers::pi;
+constexpr double kSameVertex = 1e-9;  // points nearer than this become one vertex [m]
 
 double angleOf(std::size_t i, std::size_t count) {
-  return 2 * kPi * static_cast<double>(i) / static_cast<double>(count);
+  return 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ TriMesh stackRings(const std::vector<Ring>& rings, const Vec3& first_center, con
     }
     mesh.triangles.push_back({last, index(rings.size() - 1, i), index(rings.size() - 1, i + 1)});
   }
-  weld(mesh, kSame);
+  weld(mesh, kSameVertex);
   dropUnused(mesh);
   buildAdjacency(mesh);
   return mesh;
@@ -91,12 +90,13 @@ Ring square(double size, double z, std::size_t count) {
 
 Ring fluted(double size, double z, std::size_t count, int flutes) {
   const std::size_t each = count / static_cast<std::size_t>(flutes);
-  const double half_chord = size * std::sin(kPi / flutes), chord_distance = size * std::cos(kPi / flutes);
+  const double half_chord = size * std::sin(std::numbers::pi / flutes),
+               chord_distance = size * std::cos(std::numbers::pi / flutes);
   const double radius = std::sqrt(2.0) * half_chord;
   Ring ring(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double middle = 2 * kPi * (static_cast<double>(i / each) + 0.5) / flutes;
-    const double along = kPi / 2 * (static_cast<double>(i % each) / static_cast<double>(each) - 0.5);
+    const double middle = 2 * std::numbers::pi * (static_cast<double>(i / each) + 0.5) / flutes;
+    const double along = std::numbers::pi / 2 * (static_cast<double>(i % each) / static_cast<double>(each) - 0.5);
     // centre of the arc: outside the shaft, half a chord from the chord
     const double out = chord_distance + half_chord - radius * std::cos(along), side = radius * std::sin(along);
     ring[i] = {out * std::cos(middle) - side * std::sin(middle), out * std::sin(middle) + side * std::cos(middle), z};

@@ -13,13 +13,13 @@
 namespace presa::temple {
 namespace {
 
-enum Code { kVersion = 966 };
+enum WordsCode { kVersion = 966 };
 
 constexpr std::array kKinds{BlockKind::kDrum,     BlockKind::kCapital,       BlockKind::kArchitrave,
                             BlockKind::kTriglyph, BlockKind::kMetope,        BlockKind::kCornice,
                             BlockKind::kTympanum, BlockKind::kRakingCornice, BlockKind::kTile};
 
-AssemblyWords read(xml::Document& document, Diagnostics& diagnostics) {
+AssemblyWords readChecked(xml::Document& document, Diagnostics& diagnostics) {
   static const xml::Schema schema(schemas::words);
   if (!document.validate(schema, diagnostics)) return {};
   const xml::Element root = document.root();
@@ -99,12 +99,12 @@ AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics
     return {};
   }
   const auto document = xml::Document::parse(text, "config/temple/words_" + language + ".xml", diagnostics);
-  return document ? read(*document, diagnostics) : AssemblyWords{};
+  return document ? readChecked(*document, diagnostics) : AssemblyWords{};
 }
 
 AssemblyWords readWordsFile(const std::string& file, Diagnostics& diagnostics) {
   const auto document = xml::Document::load(file, diagnostics);
-  return document ? read(*document, diagnostics) : AssemblyWords{};
+  return document ? readChecked(*document, diagnostics) : AssemblyWords{};
 }
 
 std::string wordsText(const AssemblyWords& words) {

@@ -8,14 +8,15 @@
 namespace presa::temple {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAboveCentre = 0.25;  // of the half height: what is held above its centre hangs upright
 constexpr double kTowardsTop = 0.3;    // of the half length, where a lying drum is taken so that it swings upright
 constexpr double kWidest = 0.055;      // half width that the open fingertips take with room [m]
 constexpr double kStands = 0.9;        // cosine between a body axis and the vertical
 
 /// `yaw` or yaw + pi, whichever is nearer to `wanted`.
-double nearestHalfTurn(double yaw, double wanted) noexcept { return yaw + kPi * std::round((wanted - yaw) / kPi); }
+double nearestHalfTurn(double yaw, double wanted) noexcept {
+  return yaw + std::numbers::pi * std::round((wanted - yaw) / std::numbers::pi);
+}
 
 BlockShape shapeOf(const World& world, std::size_t i) {
   const Body& body = world.scene.bodies[i];
@@ -61,7 +62,7 @@ GraspAim aimAt(const BlockShape& shape, const Pose& X_WB, double yaw, double fin
   if (!shape.round) {
     chooseAcross(shape, R_WB, up, yaw, aim);
   } else if (std::abs(R_WB(2, 2)) < kStands) {
-    aim.yaw = nearestHalfTurn(std::atan2(R_WB(1, 2), R_WB(0, 2)) + kPi / 2, yaw);
+    aim.yaw = nearestHalfTurn(std::atan2(R_WB(1, 2), R_WB(0, 2)) + std::numbers::pi / 2, yaw);
     aim.p_W += kTowardsTop * shape.half.z() * R_WB.col(2);
   }
   aim.p_W.z() = std::max(aim.p_W.z() + kAboveCentre * high, aim.bottom + fingertip + 0.002);

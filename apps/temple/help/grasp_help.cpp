@@ -18,7 +18,7 @@ constexpr double kSure = 0.25, kInVain = 2;          // time of contact that cou
 constexpr double kLost = 0.4;                        // without contact [s]
 constexpr double kRoom = 0.012;                      // of a carried block, or open fingertips, over what stands [m]
 constexpr double kLift = 0.02;                       // least height over where it was taken [m]
-constexpr double kAround = 0.14;                     // level distance within which blocks are cleared [m]
+constexpr double kClearedAround = 0.14;              // level distance within which blocks are cleared [m]
 constexpr double kAligned = 0.006, kStraight = 0.1;  // before a block is lowered to its place [m, rad]
 constexpr double kAbove = 0.001;                     // over its place, where it is let go [m]
 constexpr double kPutsDown = 0.03;                   // drag downwards that is meant to put a block down [m]
@@ -143,7 +143,7 @@ void GraspHelp::free(const PointerState& wanted) noexcept {
   out_.yaw += yaw_offset_;
   out_.closing = closing_ - base_;
   if (help_ < kHighHelp) return;
-  const double top = clearHeight(middle(), kAround, kNoBody);
+  const double top = clearHeight(middle(), kClearedAround, kNoBody);
   if (top > 0) out_.p_WT.z() = std::max(out_.p_WT.z(), top + fingertip_ + kRoom);
 }
 
@@ -229,7 +229,8 @@ void GraspHelp::carry(const PointerState& wanted) noexcept {
   const GraspAim now = aimAt(shapes_[static_cast<std::size_t>(body_)], poseOf(body_), 0, fingertip_);
   const double below = poseOf(body_).p.z() - now.bottom;
   double low = taken_z_ + kLift;
-  if (const double top = clearHeight(middle(), kAround, body_); top > 0) low = std::max(low, top + kRoom + below);
+  if (const double top = clearHeight(middle(), kClearedAround, body_); top > 0)
+    low = std::max(low, top + kRoom + below);
   out_.p_WT.z() = std::max(wanted.p_WT.z(), low + hangs);
 }
 

@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kVersion = 2;  // of touchMesh
+constexpr std::uint64_t kTouchMeshVersion = 2;  // of touchMesh
 
 std::string fileFor(const TriMesh& mesh, double max_error) {
   const std::string folder = input::cacheFolder("felt");
   if (folder.empty()) return {};
   Fnv1a hash;
-  hash.addWord(kVersion);
+  hash.addWord(kTouchMeshVersion);
   hash.addWord(std::bit_cast<std::uint64_t>(max_error));
   for (const Vec3& v : mesh.vertices)
     for (const double x : v) hash.addWord(std::bit_cast<std::uint64_t>(x));

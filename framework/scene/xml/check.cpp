@@ -5,13 +5,14 @@
 #include <set>
 
 #include "framework/scene/xml/document_data.h"
+#include "framework/scene/xml/listed.h"
 #include "framework/scene/xml/schema_compiled.h"
 #include "framework/scene/xml/xml.h"
 
 namespace presa::xml {
 namespace {
 
-enum Code {
+enum CheckCode {
   kWrongRoot = 110,
   kUnknownElement = 111,
   kTooMany = 112,
@@ -22,12 +23,6 @@ enum Code {
   kNamespace = 120,
   kOther = 199
 };
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 std::string tag(const std::string& name) { return "<" + name + ">"; }
 
@@ -111,7 +106,7 @@ class Checker {
     }
     if (!owners.empty() && owners.size() <= 2) {
       diagnostics_.error(kUnknownAttribute, where, "attribute " + quote(name) + " does not belong on " + labelOf(node),
-                         "it belongs on " + joined(owners));
+                         "it belongs on " + listed(owners));
       return nullptr;
     }
     const std::string nearest = attribute->ns ? "" : nearestName(name, free_names);
@@ -119,7 +114,7 @@ class Checker {
         kUnknownAttribute, where,
         "unknown attribute " + quote(name) + " on " + labelOf(node) +
             (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
-        rule.attributes.empty() ? tag(rule.name) + " has no attributes" : "allowed: " + joined(rule.attributeNames()));
+        rule.attributes.empty() ? tag(rule.name) + " has no attributes" : "allowed: " + listed(rule.attributeNames()));
     if (nearest.empty()) return nullptr;
     corrections_.emplace_back(reinterpret_cast<xmlNode*>(attribute), nearest);
     return rule.attribute(nearest);
@@ -161,14 +156,14 @@ class Checker {
     for (std::size_t i = content.max; i < found.size(); ++i) {
       const SourceLocation first = data_.locate(found.front());
       const std::string one = content.max == 1 ? "only one " : "up to " + std::to_string(content.max) + " ";
-      const std::string limit = names.size() > 1 ? one + "of " + joined(names) : one + names.front();
+      const std::string limit = names.size() > 1 ? one + "of " + listed(names) : one + names.front();
       diagnostics_.error(kTooMany, data_.locate(found[i]),
                          labelOf(node) + " may hold " + limit + ", this is another one",
                          "the first is in line " + std::to_string(first.line));
     }
     // an unknown child may be the missing one misspelt: one message is enough
     if (found.size() >= content.min || has_unclear) return;
-    const std::string what = names.size() > 1 ? "one of " + joined(names) : names.front();
+    const std::string what = names.size() > 1 ? "one of " + listed(names) : names.front();
     diagnostics_.error(kMissingElement, data_.locate(node), labelOf(node) + " needs " + what + ", found none");
   }
 
@@ -185,13 +180,13 @@ class Checker {
     const std::string nearest = owners.empty() ? nearestName(name, parent.childNames()) : "";
     if (!owners.empty()) {
       diagnostics_.error(kUnknownElement, where, tag(name) + " does not belong in " + in,
-                         "it belongs in " + joined(owners));
+                         "it belongs in " + listed(owners));
     } else {
       diagnostics_.error(
           kUnknownElement, where,
           "unknown element " + tag(name) + " in " + in +
               (nearest.empty() ? "" : " (did you mean " + quote(nearest) + "?)"),
-          (parent.content.empty() ? in + " has no elements in it" : "allowed: " + joined(parent.childNames())) +
+          (parent.content.empty() ? in + " has no elements in it" : "allowed: " + listed(parent.childNames())) +
               (nearest.empty() ? schema_.ifUnknown(name, where.file) : ""));
     }
     if (!nearest.empty()) corrections_.emplace_back(node, nearest);

@@ -13,7 +13,7 @@
 namespace presa::xml {
 namespace {
 
-enum Code { kUnreadable = 101, kEmpty = 102, kNotText = 103, kDoctype = 105, kTooLarge = 106, kCrowded = 695 };
+enum DocumentCode { kUnreadable = 101, kEmpty = 102, kNotText = 103, kDoctype = 105, kTooLarge = 106, kCrowded = 695 };
 
 struct FreeParser {
   void operator()(xmlParserCtxt* context) const { xmlFreeParserCtxt(context); }

@@ -6,7 +6,7 @@
 namespace presa::xml {
 namespace {
 
-enum Code { kNotText = 103, kNotWellFormed = 104, kTooDeep = 107 };
+enum ParseCode { kNotUtf8 = 103, kNotWellFormed = 104, kTooDeep = 107 };
 
 struct Words {
   const char* message;
@@ -107,7 +107,7 @@ void reportParseErrors(const std::string& name, const SourceScan& scan, const st
     case XML_ERR_UNKNOWN_ENCODING:
     case XML_ERR_UNSUPPORTED_ENCODING:
     case XML_I18N_CONV_FAILED:
-      diagnostics.error(kNotText, where, "a character here does not belong in a text file of the stated encoding",
+      diagnostics.error(kNotUtf8, where, "a character here does not belong in a text file of the stated encoding",
                         "save the file as UTF-8");
       return;
     case XML_ERR_INTERNAL_ERROR:

@@ -15,7 +15,7 @@ namespace presa::xml {
 namespace {
 
 constexpr const char* kWhiteSpace = " \t\r\n";
-enum Code { kWrongKind = 116, kOutOfRange = 117, kWrongCount = 118 };
+enum ValueCode { kWrongKind = 116, kOutOfRange = 117, kWrongCount = 118 };
 
 const xmlChar* toXml(const std::string& text) { return reinterpret_cast<const xmlChar*>(text.c_str()); }
 

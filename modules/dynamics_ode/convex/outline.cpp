@@ -6,7 +6,7 @@
 namespace presa::ode {
 namespace {
 
-constexpr double kSameNormal = 1e-9;     // 1 - cosine
+constexpr double kSamePlane = 1e-9;      // 1 - cosine
 constexpr double kSameDepth = 1e-3;      // in relation to `near`
 constexpr std::size_t kBetweenNone = 2;  // contacts of which none is between others
 
@@ -75,7 +75,7 @@ void Outline::removeFrom(std::vector<BodyContact>& contacts, std::size_t first, 
   const Vec3 x_W = nhat.unitOrthogonal(), y_W = nhat.cross(x_W);
   points_.clear();
   for (std::size_t i = first; i < contacts.size(); ++i) {
-    if (contacts[i].nhat_AB_W.dot(nhat) < 1 - kSameNormal) continue;
+    if (contacts[i].nhat_AB_W.dot(nhat) < 1 - kSamePlane) continue;
     if (i < of) return;  // looked at with an earlier one
     const Vec3& p = contacts[i].p_W;
     points_.push_back({x_W.dot(p), y_W.dot(p), contacts[i].depth, i});

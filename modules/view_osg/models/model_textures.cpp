@@ -28,9 +28,9 @@ class Shared {
 };
 
 /// A file that was exported again meanwhile has pictures of other sizes, or none that matter.
-using Picture = std::tuple<std::string, int, std::string, int, int, std::size_t>;
+using TextureKey = std::tuple<std::string, int, std::string, int, int, std::size_t>;
 
-Picture pictureOf(const Model& model, int index) {
+TextureKey pictureOf(const Model& model, int index) {
   const ModelTexture& texture = model.textures[static_cast<std::size_t>(index)];
   return {model.file, index, texture.file, texture.width, texture.height, texture.bytes.size()};
 }
@@ -68,8 +68,8 @@ class Textures {
   }
 
   std::mutex guard_;
-  Shared<Picture, osg::Image> images_;
-  Shared<std::pair<Picture, TextureUse>, osg::Texture2D> textures_;
+  Shared<TextureKey, osg::Image> images_;
+  Shared<std::pair<TextureKey, TextureUse>, osg::Texture2D> textures_;
 };
 
 Textures& textures() {
