@@ -29,7 +29,7 @@ enum SceneCode {
   kCapacity = 210,
   kTwoOrientations = 211,
   kZeroQuat = 212,
-  kNoBody = 213,
+  kNoBodies = 213,
   kMassOfFixed = 220,
   kNoGeometry = 221,
   kWatchdog = 222,
@@ -83,7 +83,7 @@ class SceneCheck {
     for (const Element& material : materials_) checkFriction(material);
     for (const Element& haptics : root_.children("haptics")) checkRenderer(haptics);
     if (bodies.empty())
-      diagnostics_.error(kNoBody, root_.where(), "the scene has no <body>", "a scene needs at least one body");
+      diagnostics_.error(kNoBodies, root_.where(), "the scene has no <body>", "a scene needs at least one body");
     if (materials_.empty() && !bodies.empty()) {
       diagnostics_.error(kNoMaterial, root_.where(), "the scene has no <material>, and bodies need one",
                          "add <materials><material name=\"rubber\" stiffness=\"1000\"/></materials>");

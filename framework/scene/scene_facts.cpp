@@ -10,7 +10,7 @@ constexpr std::size_t kFewTouchables = 32;
 constexpr const char* kPrimitives =
     "few haptic geometries, and all of them primitives, which the haptic tick handles exactly";
 
-struct Run {
+struct AskedRun {
   const Scene& scene;
   const Rig& rig;
   const RunOptions& options;
@@ -27,48 +27,48 @@ SceneFact aboutBody(const Scene& scene, bool (*is_such)(const Body&), const std:
   return {"", true, "body '" + found->name + "' " + says};
 }
 
-SceneFact fingers(const Run& run) {
+SceneFact fingers(const AskedRun& run) {
   if (run.scene.devices.empty()) return {"", false, "the scene has no device"};
   const auto touchable = std::ranges::find_if(run.scene.bodies, isTouchable);
   if (touchable == run.scene.bodies.end()) return {"", true, "the scene has devices"};
   return {"", true, "fingers can touch body '" + touchable->name + "'"};
 }
 
-SceneFact touchableMesh(const Run& run) {
+SceneFact touchableMesh(const AskedRun& run) {
   return aboutBody(run.scene, isTouchableMesh, "has a mesh as haptic geometry", kPrimitives);
 }
 
-SceneFact manyTouchables(const Run& run) {
+SceneFact manyTouchables(const AskedRun& run) {
   const auto count = static_cast<std::size_t>(std::ranges::count_if(run.scene.bodies, isTouchable));
   if (count <= kFewTouchables) return {"", false, kPrimitives};
   return {"", true, std::to_string(count) + " bodies can be touched"};
 }
 
-SceneFact freeBody(const Run& run) { return aboutBody(run.scene, isFree, "is free", "every body is fixed"); }
+SceneFact freeBody(const AskedRun& run) { return aboutBody(run.scene, isFree, "is free", "every body is fixed"); }
 
-SceneFact assembly(const Run& run) {
+SceneFact assembly(const AskedRun& run) {
   if (!run.scene.assembly) return {"", false, "the scene has no assembly"};
   return {"", true, "bodies are to be put together"};
 }
 
-SceneFact hapticRate(const Run& run) {
+SceneFact hapticRate(const AskedRun& run) {
   const bool is = run.scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
   return {"", is, is ? "<dynamics coupling=\"haptic_rate\">" : "the scene's coupling is not 'haptic_rate'"};
 }
 
-SceneFact recording(const Run& run) {
+SceneFact recording(const AskedRun& run) {
   if (!run.options.record.empty()) return {"", true, "the run is recorded"};
   if (!run.options.flight.empty()) return {"", true, "the last two seconds are kept for a fault"};
   return {"", false, "nothing is recorded"};
 }
 
-SceneFact view(const Run& run) {
+SceneFact view(const AskedRun& run) {
   using View = RunOptions::View;
   if (run.options.view == View::kNone) return {"", false, "no view is wanted"};
   return {"", true, run.options.view == View::kWindow ? "--view window" : "a picture is wanted"};
 }
 
-SceneFact bus(const Run& run) {
+SceneFact bus(const AskedRun& run) {
   const std::optional<BusSettings> bus = busOf(run.scene, run.rig, run.options);
   if (!bus) return {"", false, "no bus was requested (--bus)"};
   if (run.options.bus) return {"", true, "--bus " + bus->network};
@@ -76,27 +76,27 @@ SceneFact bus(const Run& run) {
   return {"", true, who + "' publishes on bus '" + bus->network + "'"};
 }
 
-struct Rule {
+struct FactRule {
   const char* name;
-  SceneFact (*of)(const Run&);
+  SceneFact (*of)(const AskedRun&);
 };
 
-constexpr Rule kRules[] = {{"fingers", fingers},
-                           {"touchable_mesh", touchableMesh},
-                           {"many_touchables", manyTouchables},
-                           {"free_body", freeBody},
-                           {"haptic_rate", hapticRate},
-                           {"assembly", assembly},
-                           {"recording", recording},
-                           {"view", view},
-                           {"bus", bus}};
+constexpr FactRule kRules[] = {{"fingers", fingers},
+                               {"touchable_mesh", touchableMesh},
+                               {"many_touchables", manyTouchables},
+                               {"free_body", freeBody},
+                               {"haptic_rate", hapticRate},
+                               {"assembly", assembly},
+                               {"recording", recording},
+                               {"view", view},
+                               {"bus", bus}};
 
 }  // namespace
 
 std::vector<SceneFact> factsOf(const Scene& scene, const Rig& rig, const RunOptions& options) {
-  const Run run{scene, rig, options};
+  const AskedRun run{scene, rig, options};
   std::vector<SceneFact> facts;
-  for (const Rule& rule : kRules) {
+  for (const FactRule& rule : kRules) {
     facts.push_back(rule.of(run));
     facts.back().name = rule.name;
   }
@@ -106,7 +106,7 @@ std::vector<SceneFact> factsOf(const Scene& scene, const Rig& rig, const RunOpti
 const std::vector<std::string>& factNames() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names;
-    for (const Rule& rule : kRules) names.emplace_back(rule.name);
+    for (const FactRule& rule : kRules) names.emplace_back(rule.name);
     return names;
   }();
   return kNames;
