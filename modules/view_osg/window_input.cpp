@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <utility>
 
 namespace presa::view {
 namespace {
@@ -16,10 +18,17 @@ constexpr double kZoomDrag = 1.5;        // exponent of the zoom for a drag over
 constexpr double kFlyStep = 0.06;        // per arrow key, in distances to the target
 constexpr double kShortJump = 1.0 / 60;  // length of a step back, as a single step ahead [s]
 constexpr double kStill = 0.01;          // a shorter drag counts as a click
+constexpr double kRepeat = 1;            // a key that is held down repeats sooner [s]
 constexpr double kFineShare = 0.2;       // fraction of a key's step with Shift
 constexpr double kSlowest = 1.0 / 64, kFastest = 64;
 
 bool has(const Event& event, int mask) { return (event.getModKeyMask() & mask) != 0; }
+
+/// A key that switches something over, or asks for it once: held down, it does so once, while the others repeat.
+bool switches(int key) {
+  return key == Event::KEY_Return || key == Event::KEY_Escape ||
+         (key > 0 && key < 128 && std::strchr("0123456789bcdghjmostuw? ", key) != nullptr);
+}
 
 }  // namespace
 
@@ -60,9 +69,15 @@ bool WindowInput::handle(const Event& event, osgGA::GUIActionAdapter&) {
     case Event::SCROLL:
       scroll(event);
       return true;
-    case Event::KEYDOWN:
+    case Event::KEYDOWN: {
+      const double since = event.getTime() - std::exchange(held_at_, event.getTime());
+      // a release is lost with the focus: a later press is a press
+      const bool repeated = std::exchange(held_, event.getKey()) == event.getKey() && since < kRepeat;
+      if (repeated && switches(event.getKey())) return true;
       return menuKey(event.getKey()) || frameKey(event, true) || key(event);
+    }
     case Event::KEYUP:
+      if (held_ == event.getKey()) held_ = 0;
       return frameKey(event, false);
     default:
       return false;

@@ -67,6 +67,8 @@ class WindowInput : public osgGA::GUIEventHandler {
   CameraControl& camera_;
   Controls controls_;
   Drag drag_ = Drag::kNone;
+  int held_ = 0;        // key that was pressed last and is still down; 0: none
+  double held_at_ = 0;  // time of its last press, or repeat [s]
   double dragged_ = 0;  // length of the current drag, in the units of at_
   osg::Vec2 at_;        // mouse position, in halves of the picture's height
   double aspect_ = 16.0 / 9;

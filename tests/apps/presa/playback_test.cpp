@@ -61,7 +61,7 @@ TEST(Playback, AMomentIsWhatWasRecorded) {
 }
 
 // Real keys and a real mouse in the window of `presa replay`: the key s saves pictures named by the recording's time.
-// Time stands still while paused; Home, End and the middle of the bar go to their times.
+// Time stands still while paused, also by a key that is held down; Home, End and the middle of the bar go to their times.
 TEST(Playback, ItsWindowMovesAboutInTime) {
   const std::string folder = test::scratch("scrub");
   std::filesystem::create_directories(folder);
@@ -81,7 +81,7 @@ picture() {
 # the picture under way, one asked for meanwhile, and the frame that takes the key, may still show the time before it
 moment() { picture; picture; picture; picture; echo "$1 $time" >> times; }
 timeout 60 xdotool search --sync --onlyvisible --name Presa; xdotool mousemove 680 440; picture
-xdotool key space Home; moment start
+xdotool keydown space; sleep 1; xdotool keyup space; xdotool key Home; moment start
 moment still
 xdotool key period; moment step
 xdotool mousemove 680 681 click 1; moment middle
