@@ -15,28 +15,32 @@
 namespace presa::cost {
 namespace {
 
+/// What a scene must have for a knob to do something.
+enum class Need { kFingers, kMotion, kHeldMotion, kMeshes };
+
 struct KnownFactor {
   const char* name;
   const char* path;  ///< "device/*/…": every device
+  Need need;
 };
 
 constexpr KnownFactor kFactors[] = {
-    {"haptic_rate", "rates/haptic"},
-    {"collision_rate", "rates/collision"},
-    {"dynamics_rate", "rates/dynamics"},
-    {"substeps", "dynamics/substeps"},
-    {"solver", "dynamics/solver"},
-    {"iterations", "dynamics/iterations"},
-    {"coupling", "dynamics/coupling"},
-    {"engine", "dynamics/engine"},
-    {"friction", "dynamics/friction"},
-    {"rotation", "dynamics/rotation"},
-    {"sleeping", "dynamics/sleeping"},
-    {"renderer", "haptics/renderer"},
-    {"pose", "haptics/pose"},
-    {"collision_index", "collision/index"},
-    {"patch_margin", "collision/margin"},
-    {"fingertip_radius", "device/*/fingertip_radius"},
+    {"haptic_rate", "rates/haptic", Need::kFingers},
+    {"collision_rate", "rates/collision", Need::kMeshes},
+    {"dynamics_rate", "rates/dynamics", Need::kMotion},
+    {"substeps", "dynamics/substeps", Need::kMotion},
+    {"solver", "dynamics/solver", Need::kMotion},
+    {"iterations", "dynamics/iterations", Need::kMotion},
+    {"coupling", "dynamics/coupling", Need::kHeldMotion},
+    {"engine", "dynamics/engine", Need::kMotion},
+    {"friction", "dynamics/friction", Need::kMotion},
+    {"rotation", "dynamics/rotation", Need::kMotion},
+    {"sleeping", "dynamics/sleeping", Need::kMotion},
+    {"renderer", "haptics/renderer", Need::kFingers},
+    {"pose", "haptics/pose", Need::kHeldMotion},
+    {"collision_index", "collision/index", Need::kMeshes},
+    {"patch_margin", "collision/margin", Need::kMeshes},
+    {"fingertip_radius", "device/*/fingertip_radius", Need::kFingers},
 };
 
 constexpr const char *kMeshFactor = "haptic_mesh", *kMeshFolder = "/meshes/";  // of a study's own folder
@@ -340,6 +344,27 @@ void nameSettings(Study& study) {
     if (!shorter.diagnostics.hasErrors() && shorter.hash == setting.scene_hash) setting.sets = needed;
     if (setting.name.empty()) setting.name = "default";
   }
+}
+
+/// What the scene lacks for it; empty: nothing.
+static std::string lackFor(Need need, const Loaded& base) {
+  const bool moves = hasMotion(base.plan), touches = !base.world->scene.devices.empty();
+  if ((need == Need::kMotion || need == Need::kHeldMotion) && !moves) return "nothing in it moves";
+  if ((need == Need::kFingers || need == Need::kHeldMotion) && !touches) return "it has no finger";
+  if (need == Need::kMeshes && !base.plan.has("collision_fcl")) return "no finger of it touches a mesh";
+  return {};
+}
+
+void checkUse(const Factor& factor, const Loaded& base, const SourceLocation& where, Diagnostics& diagnostics) {
+  std::string lack, used;
+  for (const KnownFactor& known : kFactors) {
+    const std::string lacks = lackFor(known.need, base);
+    if (known.name == factor.name) lack = lacks;
+    if (lacks.empty()) used += (used.empty() ? "" : ", ") + std::string(known.name);
+  }
+  if (lack.empty()) return;
+  diagnostics.error(816, where, "knob " + quote(factor.name) + " does nothing in this scene: " + lack,
+                    used.empty() ? "no named knob does" : "knobs that do something: " + used);
 }
 
 bool hasMotion(const Plan& plan) {

@@ -15,6 +15,9 @@ Factor makeFactor(const std::string& name, const std::vector<std::string>& value
 /// The factors worth varying in this scene.
 std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder, bool quick);
 
+/// E816: a named factor does nothing in this scene; the help names those that do something.
+void checkUse(const Factor& factor, const Loaded& base, const SourceLocation& where, Diagnostics& diagnostics);
+
 /// True when the scene has dynamics, with any engine.
 bool hasMotion(const Plan& plan);
 

@@ -137,6 +137,9 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
     for (const std::string& text : request.factors) grid.push_back(parseFactor(text, scene, study.folder, diagnostics));
     std::erase_if(grid, [](const Factor& factor) { return factor.values.empty(); });
   }
+  for (const std::vector<Factor>& grid : grids)
+    for (const Factor& factor : grid)
+      checkUse(factor, base, {request.factors.empty() ? study.file : "--knob " + factor.name, 0, 0}, diagnostics);
   if (base.world->scene.bodies.empty()) return study;  // unreadable scene: reported above
   if (grids.empty()) {
     addSettings(study, defaultFactors(base, study.folder, request.quick), Combine::kOneAtATime, diagnostics);

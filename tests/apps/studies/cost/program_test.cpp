@@ -37,6 +37,16 @@ TEST(Cost, RefusesBadInputBeforeAnyWork) {
   EXPECT_FALSE(std::filesystem::exists(out + "/runs"));
 
   EXPECT_EQ(presa("cost " + kCube + " --knob dynamics_rate=200 --out " + out).status, 2);  // no setting but the default
+  const auto idle = presa("cost " + test::source("config/scenes/plane.xml") +
+                          " --knob dynamics_rate=100,200 --knob haptic_rate=1000,2000 --knob patch_margin=0.001,0.002");
+  EXPECT_EQ(idle.status, 2);
+  EXPECT_EQ(
+      idle.err,
+      "--knob dynamics_rate: error[E816]: knob 'dynamics_rate' does nothing in this scene: nothing in it moves\n"
+      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius\n"
+      "--knob patch_margin: error[E816]: knob 'patch_margin' does nothing in this scene: no finger of it touches a "
+      "mesh\n"
+      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius\n");
   const std::string file = scratch("a_file");
   std::ofstream(file) << "x";
   const auto unwritable = presa(kSmall + "--out " + file + "/below");
