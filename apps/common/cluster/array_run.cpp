@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <stdexcept>
 #include <thread>
 
 #include "apps/common/atomic_file.h"
@@ -30,17 +31,32 @@ class Follow {
     writeScript();
     for (const int part : parts_) tries_[part] = 0;
     std::vector<int> open = parts_;
+    std::string array = submitted(open);
+    run_.on_taken();
     while (!open.empty() && !end_.interrupted) {
-      const std::string array = submit({script_, run_.name, run_.folder + "/task_", open, run_.options});
       std::vector<int> lost = follow(array, open);
       open.clear();
       for (const int part : lost) (tries_[part]++ < run_.retries ? open : end_.failed).push_back(part);
+      if (!open.empty() && !submittedAgain(open, array)) break;
     }
     progress_.finish();
     return end_;
   }
 
  private:
+  std::string submitted(const std::vector<int>& parts) const {
+    return submit({script_, run_.name, run_.folder + "/task_", parts, run_.options});
+  }
+  bool submittedAgain(const std::vector<int>& parts, std::string& array) {
+    try {
+      array = submitted(parts);
+      return true;
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "presa: Slurm refuses to take failed parts again: %s\n", error.what());
+      end_.failed.insert(end_.failed.end(), parts.begin(), parts.end());
+      return false;
+    }
+  }
   /// Until then, or Ctrl-C.
   void sleep(Clock::duration time) {
     for (const auto end = Clock::now() + time; Clock::now() < end && !terminal::JobProgress::interrupted();)

@@ -12,6 +12,7 @@ struct ArrayRun {
   int parts = 1;       ///< number of them
   std::function<std::string(const std::string& part)> command;  ///< shell line for a part, given as a shell expression
   std::function<bool(int part)> is_done;                        ///< asked often
+  std::function<void()> on_taken;                               ///< called when Slurm has taken the job
   int retries = 2;                                              ///< how often a failed part is submitted again
   std::vector<std::string> options;                             ///< for sbatch
 };
@@ -23,7 +24,8 @@ struct ArrayEnd {
 };
 
 /// Submits the parts that are not done, shows progress, submits again what failed, and returns when all are done, or
-/// nothing is left to try. Throws std::runtime_error with Slurm's own words when it refuses the job.
+/// nothing is left to try. Throws std::runtime_error with Slurm's own words when it refuses the job; where it refuses to
+/// take failed parts again, that is told on stderr, and they have failed.
 ArrayEnd runArray(const ArrayRun& run);
 
 /// File with the output of a part.

@@ -87,6 +87,8 @@ bool takesFiles(const CLI::App& app) {
   return std::ranges::any_of(app.get_options(), [](const CLI::Option* option) { return option->get_positional(); });
 }
 
+bool needsCommand(const CLI::App& app) { return app.get_require_subcommand_min() > 0; }
+
 bool isFile(const std::string& word) {
   std::error_code ignored;
   return word.ends_with(".xml") || word.ends_with(".h5") || std::filesystem::is_regular_file(word, ignored);
@@ -178,11 +180,12 @@ void requireCommand(const CLI::App& app, std::vector<std::string>& words, const 
     const auto known = at->get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
     const CLI::App* next = known.empty() ? nullptr : known.front();
     if (next == nullptr && takesFiles(*at)) return;  // as presa cost SCENE beside presa cost merge
+    if (next == nullptr && word.starts_with("-") && !needsCommand(*at)) return;  // as presa stability beside its merge
     if (next == nullptr) refuseWord(*at, word, names);
     at = next;
   }
   const std::vector<std::string> names = commandsOf(*at, programs);
-  if (names.empty() || takesFiles(*at)) return;
+  if (names.empty() || takesFiles(*at) || !needsCommand(*at)) return;
   const std::string here = commandOf(*at);
   refuse(kBadArgument, here, "a command is missing: " + listed(names, "or"),
          here + " --help tells what each does" +

@@ -7,6 +7,7 @@
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/report/svg_symbols.h"
 #include "apps/common/terminal/text.h"
+#include "apps/common/wilson.h"
 
 namespace presa::experiment {
 namespace {
@@ -61,10 +62,8 @@ std::vector<int> curveSizes(int subjects) {
 }
 
 PowerCurve::Point powerPoint(int subjects, std::size_t significant, std::size_t studies) {
-  const double n = static_cast<double>(studies), p = static_cast<double>(significant) / n, z = 1.959964;
-  const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
-  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {subjects, p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
+  const Share power = shareOf(significant, studies);
+  return {subjects, power.value, power.low, power.high};
 }
 
 std::string powerFigure(const std::vector<PowerCurve>& curves, int subjects, double wanted) {

@@ -111,10 +111,10 @@ class Workers {
 
 std::vector<StudySession> sessionsOf(const StudiesPlan& plan, std::uint64_t first_seed) {
   std::vector<StudySession> all;
-  int index = 0;
+  std::size_t index = 0;
   for (int study = 1; study <= plan.studies; ++study) {
     for (int subject = 1; subject <= plan.subjects; ++subject) {
-      if (index++ % plan.shards != plan.shard - 1) continue;
+      if (!plan.shard.holds(index++)) continue;
       all.push_back({study, subject, plan.out + format("/study-%03d", study), format("S%02d", subject),
                      first_seed + static_cast<std::uint64_t>(study - 1)});
     }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/cluster/shard.h"
+
 namespace presa::experiment {
 
 /// Many simulated studies of an experiment, each with its own simulated subjects, to plan the real study.
@@ -11,10 +13,10 @@ struct StudiesPlan {
   std::string level;  ///< level of the simulated subjects; empty: the rig's
   std::string rig_file;
   int subjects = 3, studies = 1;
-  double power = 0.8;         ///< wanted
-  int jobs = 0;               ///< parallel sessions; 0: one per processor
-  int shard = 1, shards = 1;  ///< this machine runs every `shards`-th session, beginning with `shard`
-  bool recordings = false;    ///< record every haptic tick
+  double power = 0.8;       ///< wanted
+  int jobs = 0;             ///< parallel sessions; 0: one per processor
+  cluster::Shard shard{};   ///< the sessions that this machine runs
+  bool recordings = false;  ///< record every haptic tick
   std::string out;
 };
 

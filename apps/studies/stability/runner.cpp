@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/common/atomic_file.h"
+#include "apps/common/cluster/shard_file.h"
 #include "apps/common/exit_status.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/studies/stability/parts.h"
@@ -167,13 +168,42 @@ int runCases(const RunnerOptions& options, std::vector<Case> all) {
   const Results results = runTrials(jobs, options, interrupted);
   if (options.shard) {
     if (interrupted) return kExitInterrupted;
-    writePart(options.out, options, namesOf(jobs), results);
+    writePart(options, namesOf(jobs), results);
     std::printf("Shard %s. When all shards are there: presa stability merge FOLDER…\n%s\n",
                 cluster::textOf(*options.shard).c_str(), options.out.c_str());
     return kExitOk;
   }
   const int status = tell(options, cases, rowsOf(jobs, results));
   return interrupted ? kExitInterrupted : status;
+}
+
+int submitCases(const RunnerOptions& options, const cluster::SubmitOptions& on) {
+  constexpr const char* kCommand = "presa stability submit";
+  Diagnostics diagnostics;
+  cluster::checkCluster(kCommand, on, diagnostics);
+  if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
+  const std::vector<Case> cases = chosenCases(options, allCases());
+  std::vector<std::string> words{"stability"};
+  for (const std::string& name : options.cases) words.insert(words.end(), {"--case", name});
+  if (options.quick) words.emplace_back("--quick");
+  const cluster::ShardedWork work{.command = kCommand,
+                                  .name = "presa_stability",
+                                  .folder = std::filesystem::absolute(options.out).string() + "/shards",
+                                  .words = std::move(words),
+                                  .is_done = [trials = workOf(namesOf(jobsOf(cases, options.quick)))](
+                                                 const std::string& folder, const cluster::Shard& shard) {
+                                    return cluster::holdsShard(folder, shard, trials);
+                                  }};
+  switch (cluster::submitShards(work, on)) {
+    case cluster::Submitted::kInterrupted:
+      std::fputs("stopped; the same command with --resume goes on\n", stderr);
+      return kExitInterrupted;
+    case cluster::Submitted::kFailed:
+      return kExitFault;
+    case cluster::Submitted::kDone:
+      break;
+  }
+  return mergeCases(cluster::shardFolders(work, on), options);
 }
 
 int mergeCases(const std::vector<std::string>& folders, const RunnerOptions& options, std::vector<Case> all) {

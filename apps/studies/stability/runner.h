@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/common/cluster/shard.h"
+#include "apps/common/cluster/submission.h"
 #include "experiments/stability/case.h"
 
 namespace presa::stability {
@@ -26,5 +27,8 @@ int runCases(const RunnerOptions& options, std::vector<Case> all = allCases());
 /// run. Throws InputError: E810 to E812.
 int mergeCases(const std::vector<std::string>& folders, const RunnerOptions& options,
                std::vector<Case> all = allCases());
+/// Runs the shards as a job array of a cluster, then merges them; returns the exit status of the whole run, or 1 where a
+/// shard never finished. Throws InputError: E123, E813.
+int submitCases(const RunnerOptions& options, const cluster::SubmitOptions& on);
 
 }  // namespace presa::stability

@@ -49,19 +49,17 @@ std::vector<std::string> commandsIn(const std::string& help) {
   return commands;
 }
 
+/// Adds the help of a command that does something itself, and of those below it.
+void addHelp(const std::string& command, std::map<std::string, std::string>& all) {
+  const std::string help = test::presa(command + " --help").out;
+  const std::vector<std::string> inner = commandsIn(help);
+  if (inner.empty() || help.find("[SUBCOMMAND]") != std::string::npos) all[command] = help;
+  for (const std::string& name : inner) addHelp(command + " " + name, all);
+}
+
 std::map<std::string, std::string> helpOfEveryCommand() {
   std::map<std::string, std::string> all;
-  for (const std::string& command : commandsIn(test::presa("--help").out)) {
-    const std::string help = test::presa(command + " --help").out;
-    std::vector<std::string> inner = commandsIn(help);
-    if (command == "device") {  // programs of their own beside `presa`
-      for (const char* program : {"faults", "periods"}) {
-        if (std::ranges::find(inner, program) == inner.end()) inner.emplace_back(program);
-      }
-    }
-    if (inner.empty() || help.find("[SUBCOMMAND]") != std::string::npos) all[command] = help;
-    for (const std::string& name : inner) all[command + " " + name] = test::presa(command + " " + name + " --help").out;
-  }
+  for (const std::string& command : commandsIn(test::presa("--help").out)) addHelp(command, all);
   return all;
 }
 
@@ -71,7 +69,7 @@ Statuses statusesIn(const std::string& help) {
   const std::size_t begin = help.find("Exit status:");
   if (begin == std::string::npos) return statuses;
   std::string sentence = help.substr(begin, help.find("\nExample", begin) - begin);
-  std::erase(sentence, '\n');
+  std::ranges::replace(sentence, '\n', ' ');
   static const std::regex kStatus(R"((?:: |, )(0|1|2|3|130) )");
   for (std::sregex_iterator found(sentence.begin(), sentence.end(), kStatus), end; found != end; ++found)
     statuses.insert(std::stoi((*found)[1]));

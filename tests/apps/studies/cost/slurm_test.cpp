@@ -2,16 +2,12 @@
 // way; a shard that never finishes, and no cluster.
 #include <gmock/gmock.h>
 
-#include <array>
-#include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/common/file_text.h"
-#include "tests/apps/presa/support.h"
 #include "tests/apps/studies/cost/shard_support.h"
+#include "tests/support/slurm_cluster.h"
 
 namespace presa {
 namespace {
@@ -23,38 +19,15 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 const std::string kProgram = PRESA_BINARY_DIR "/bin/presa";
-const std::string kCluster = "bash " + test::source("tests/support/slurm.sh");
 
-/// The cluster of these tests.
-class Slurm : public testing::Test {
+class Slurm : public test::SlurmCluster {
  protected:
-  Slurm() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    const auto started = shell(kCluster + " start " + folder_ + "/cluster");
-    runs_ = started.status == 0;
-    why_ = started.out + started.err;
-    setenv("SLURM_CONF", (folder_ + "/cluster/slurm.conf").c_str(), 1);
-  }
-  ~Slurm() override {
-    shell(kCluster + " stop " + folder_ + "/cluster");
-    unsetenv("SLURM_CONF");
-    fs::remove_all(folder_);
-  }
-  std::string in(const std::string& name) const { return folder_ + "/" + name; }
   nlohmann::json read(const std::string& file) const { return nlohmann::json::parse(contentsOf(in(file))); }
   /// The study in three shards, of which number 2 is killed once while it runs.
   test::Outcome submitAndKill(const std::string& study, const std::string& more) const {
-    const std::string kill =
-        "while ! [ -d " + in("merged/shards/2/runs") + " ]; do sleep 0.02; done; " +
-        "scancel --signal=KILL --full $(squeue --noheader --array --format='%i %K' | awk '$2 == 2 {print $1}')";
-    return shell("(" + kill + ") & " + kProgram + " " + study + more + " --slurm --tasks 3 --out " + in("merged"));
+    return presaAndKill(study + more + " --slurm --tasks 3 --out " + in("merged"), 2, in("merged/shards/2/runs"));
   }
   static std::string submitted(const std::string& study) { return "cost submit" + study.substr(4); }
-
-  const std::string folder_ = testing::TempDir() + "presa_slurm_" + std::to_string(getpid());
-  bool runs_ = false;
-  std::string why_;
 };
 
 TEST_F(Slurm, MakesTheStudyAlthoughATaskIsKilled) {
