@@ -49,7 +49,8 @@ std::string verdictOf(const std::vector<Trial>& trials) {
   const Share share = shareOf(times.size(), trials.size());
   std::string text = format("%zu of %zu buildings whole: %.0f %% (95 %% interval %.0f to %.0f %%)", times.size(),
                             trials.size(), 100 * share.value, 100 * share.low, 100 * share.high);
-  if (!times.empty()) text += format(", in a median of %.0f s", times[(times.size() - 1) / 2]);
+  if (!times.empty())
+    text += format(", in a median of %.0f s", 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]));
   return text;
 }
 
@@ -73,7 +74,7 @@ std::string figureOf(const std::vector<Trial>& trials) {
   figure.y_label = "share of whole buildings";
   figure.y_max = 1;
   figure.x_from_zero = true;
-  svg::Layer line{svg::Layer::Kind::kLine, 0};
+  svg::Layer line{svg::Layer::Kind::kLine, 0, false, {{0, 0}}};
   const std::vector<double> times = timesOf(trials);
   double share = 0;
   for (const double time : times) {

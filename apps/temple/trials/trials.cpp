@@ -1,8 +1,12 @@
 #include "apps/temple/trials/trials.h"
 
-#include <cstdio>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "apps/common/file_text.h"
 #include "apps/common/options/program.h"
@@ -26,13 +30,18 @@ std::string fileOf(const TrialsPlan& plan, std::uint64_t seed, const char* endin
   return plan.out + format("/seed_%llu", static_cast<unsigned long long>(seed)) + ending;
 }
 
+/// Standard output and error, in the order in which they are printed.
+void printInto(const std::string& log) {
+  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  if (file < 0 || ::dup2(file, STDOUT_FILENO) < 0 || ::dup2(file, STDERR_FILENO) < 0)
+    throw std::system_error(errno, std::generic_category(), log + " cannot be written");
+}
+
 /// In a process of its own: the visit prints into a file, and its summary is the result.
 std::string rebuild(const TrialsPlan& plan, std::uint64_t seed) {
   const std::string log = fileOf(plan, seed, ".log"), summary = fileOf(plan, seed, ".json");
   fs::remove(summary);
-  fs::remove(log);
-  if (std::freopen(log.c_str(), "a", stdout) == nullptr || std::freopen(log.c_str(), "a", stderr) == nullptr)
-    throw std::runtime_error(log + " cannot be written");
+  printInto(log);
   std::vector<std::string> words{"presa"};
   const std::vector<std::string> wanted = wordsOf(plan, seed);
   words.insert(words.end(), wanted.begin() + 1, wanted.end());  // its program is `presa temple`
