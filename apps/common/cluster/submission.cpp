@@ -5,6 +5,7 @@
 
 #include "apps/common/cluster/array_run.h"
 #include "apps/common/cluster/slurm.h"
+#include "apps/common/exit_status.h"
 #include "apps/common/shell.h"
 #include "framework/core/diagnostics/refuse.h"
 
@@ -74,7 +75,7 @@ void checkCluster(const std::string& command, const SubmitOptions& options, Diag
                       "call it where sbatch works, or make the shards yourself: --shard I/N");
 }
 
-Submitted submitShards(const ShardedWork& work, const SubmitOptions& options) {
+std::optional<int> submitShards(const ShardedWork& work, const SubmitOptions& options) {
   slurm::ArrayRun array = arrayOf(work, options);
   const std::string before = array.folder + ".before";  // until Slurm has taken the job
   if (!options.resume && fs::exists(array.folder)) {
@@ -100,10 +101,14 @@ Submitted submitShards(const ShardedWork& work, const SubmitOptions& options) {
     refuse(kNoCluster, work.command, std::string("Slurm refuses the job: ") + error.what(),
            "--sbatch OPTION gives options to sbatch, such as --sbatch=--partition=NAME");
   }
-  if (end.interrupted) return Submitted::kInterrupted;
-  if (end.failed.empty()) return Submitted::kDone;
+  if (end.interrupted) {
+    std::fprintf(stderr, "stopped; the shards that are done are in %s: the same command with --resume goes on\n",
+                 work.folder.c_str());
+    return kExitInterrupted;
+  }
+  if (end.failed.empty()) return std::nullopt;
   tellFailed(array, end.failed);
-  return Submitted::kFailed;
+  return kExitFault;
 }
 
 std::vector<std::string> shardFolders(const ShardedWork& work, const SubmitOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,10 @@ struct ShardedWork {
   std::function<bool(const std::string& folder, const Shard& shard)> is_done;  ///< asked often
 };
 
-enum class Submitted { kDone, kFailed, kInterrupted };
-
-/// Submits the shards that are not done, follows them, and submits again what failed. Told on stderr: E814 for each shard
-/// that never finished. Throws InputError E813 with Slurm's own words when it refuses the job; what an earlier
+/// Submits the shards that are not done, follows them, and submits again what failed. No value: all are done. Otherwise
+/// the exit status, with the reason on stderr: a shard never finished (E814), or Ctrl-C. Throws InputError E813 with Slurm's own words when it refuses the job; what an earlier
 /// submission made is there as before, then.
-Submitted submitShards(const ShardedWork& work, const SubmitOptions& options);
+std::optional<int> submitShards(const ShardedWork& work, const SubmitOptions& options);
 
 /// Folders of all shards, in order.
 std::vector<std::string> shardFolders(const ShardedWork& work, const SubmitOptions& options);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-enum ShardCode { kOfAnother = 811, kNoFolder = 951 };
+enum ShardCode { kNoShard = 810, kOfAnother = 811, kNoFolder = 951 };
 
 /// The same for all shards of one simulation.
 std::string workOf(const Simulation& wanted, const Experiment& experiment) {
@@ -99,17 +99,24 @@ void putFile(const fs::path& from, const fs::path& to) {
 
 /// A session of a shard replaces one of before: the plan is the same, and so is what it simulates.
 void putSession(const fs::path& from, const fs::path& to) {
+  constexpr const char* kJournal = "journal.jsonl";
   std::error_code error;
-  if (fs::equivalent(from / "journal.jsonl", to / "journal.jsonl", error)) return;
+  if (fs::equivalent(from / kJournal, to / kJournal, error)) return;
   fs::remove_all(to, error);
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(from))
-    if (entry.is_regular_file()) putFile(entry.path(), to / fs::relative(entry.path(), from));
+    if (entry.is_regular_file() && entry.path().filename() != kJournal)
+      putFile(entry.path(), to / fs::relative(entry.path(), from));
+  putFile(from / kJournal, to / kJournal);  // the last one: a session with it is whole
 }
 
-/// E951: the merged folder holds another plan.
-void checkPlan(const StudiesPlan& from, const StudiesPlan& to, Diagnostics& diagnostics) {
-  const std::string wanted = from.out + "/plan.txt", there = to.out + "/plan.txt";
-  if (fs::exists(there) && contentsOf(there) != contentsOf(wanted))
+/// E810: a session of the shard is gone; E951: the merged folder holds another plan.
+void checkSessions(const StudiesPlan& from, const StudiesPlan& to, std::uint64_t seed, Diagnostics& diagnostics) {
+  for (const StudySession& session : sessionsOf(from, seed))
+    if (const std::string journal = folderOf(session.data, session.subject_id, 1).journal(); !fs::exists(journal))
+      diagnostics.error(kNoShard, {journal, 0, 0}, "is missing: a session of the shard was removed",
+                        "make the shard again, into an empty folder");
+  const std::string there = to.out + "/plan.txt";
+  if (fs::exists(there) && contentsOf(there) != contentsOf(from.out + "/plan.txt"))
     diagnostics.error(kNoFolder, {to.out, 0, 0}, "holds studies of another experiment, level or seed",
                       "give another --out");
 }
@@ -166,7 +173,8 @@ int mergeShards(const std::vector<std::string>& folders, const std::string& out)
     part.plan.out = shard.head.folder;
     part.plan.shard = shard.head.shard;
     parts.push_back(plansOf(part));
-    for (std::size_t k = 0; k < merged.size(); ++k) checkPlan(parts.back()[k], merged[k], diagnostics);
+    for (std::size_t k = 0; k < merged.size(); ++k)
+      checkSessions(parts.back()[k], merged[k], experiment->seed, diagnostics);
   }
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
   for (const auto& part : parts)
@@ -189,15 +197,7 @@ int submitShards(const Simulation& wanted, const cluster::SubmitOptions& on) {
       .is_done = [sessions = workOf(wanted, *experiment)](const std::string& folder, const cluster::Shard& shard) {
         return cluster::holdsShard(folder, shard, sessions);
       }};
-  switch (cluster::submitShards(work, on)) {
-    case cluster::Submitted::kInterrupted:
-      std::fputs("stopped; the same command with --resume goes on\n", stderr);
-      return kExitInterrupted;
-    case cluster::Submitted::kFailed:
-      return kExitFault;
-    case cluster::Submitted::kDone:
-      break;
-  }
+  if (const auto status = cluster::submitShards(work, on)) return *status;
   return mergeShards(cluster::shardFolders(work, on), wanted.plan.out);
 }
 

@@ -46,14 +46,7 @@ int submit(const SubmitArguments& a) {
   if (diagnostics.hasErrors()) return kExitBadInput;
 
   const cluster::ShardedWork work = workOf(a, study);
-  switch (cluster::submitShards(work, a.cluster)) {
-    case cluster::Submitted::kInterrupted:
-      return interrupted(study.folder, "the same command and --resume");
-    case cluster::Submitted::kFailed:
-      return kExitFault;
-    case cluster::Submitted::kDone:
-      break;
-  }
+  if (const auto status = cluster::submitShards(work, a.cluster)) return *status;
   return merge({.folders = cluster::shardFolders(work, a.cluster), .out = study.folder, .mixed = a.mixed},
                a.study->jobs, a.study->apply);
 }

@@ -194,15 +194,7 @@ int submitCases(const RunnerOptions& options, const cluster::SubmitOptions& on) 
                                                  const std::string& folder, const cluster::Shard& shard) {
                                     return cluster::holdsShard(folder, shard, trials);
                                   }};
-  switch (cluster::submitShards(work, on)) {
-    case cluster::Submitted::kInterrupted:
-      std::fputs("stopped; the same command with --resume goes on\n", stderr);
-      return kExitInterrupted;
-    case cluster::Submitted::kFailed:
-      return kExitFault;
-    case cluster::Submitted::kDone:
-      break;
-  }
+  if (const auto status = cluster::submitShards(work, on)) return *status;
   return mergeCases(cluster::shardFolders(work, on), options);
 }
 

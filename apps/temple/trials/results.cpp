@@ -191,15 +191,7 @@ int submitTrials(const TrialsPlan& plan, const cluster::SubmitOptions& on) {
       .is_done = [wanted = toJson(plan).dump()](const std::string& folder, const cluster::Shard& shard) {
         return cluster::holdsShard(folder, shard, wanted);
       }};
-  switch (cluster::submitShards(work, on)) {
-    case cluster::Submitted::kInterrupted:
-      std::fputs("stopped; the same command with --resume goes on\n", stderr);
-      return kExitInterrupted;
-    case cluster::Submitted::kFailed:
-      return kExitFault;
-    case cluster::Submitted::kDone:
-      break;
-  }
+  if (const auto status = cluster::submitShards(work, on)) return *status;
   return mergeTrials(cluster::shardFolders(work, on), plan.out);
 }
 

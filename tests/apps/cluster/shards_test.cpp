@@ -84,6 +84,8 @@ TEST(Shards, OfSimulatedStudiesAreTheWhole) {
   EXPECT_EQ(presa("experiment simulate merge" + parts + " --out " + whole).status, 0);
   EXPECT_EQ(presa("experiment simulate merge" + parts + " --out " + scratch("part_2")).status, 0);
   EXPECT_EQ(numbersOf(scratch("part_2")), numbersOf(merged));
+  fs::remove_all(scratch("part_1") + "/study-002");
+  EXPECT_THAT(refused(parts), HasSubstr("error[E810]: is missing: a session of the shard was removed"));
   std::ofstream(scratch("part_1") + "/shard.json") << "{";
   EXPECT_THAT(refused(parts), HasSubstr("error[E810]: cannot be read as a shard"));
   EXPECT_FALSE(fs::exists(scratch("other")));
