@@ -51,6 +51,8 @@ def chosen(word):
     stale = [f"{mutant.file} has this {mutant.count()} times:  {mutant.old}" for mutant in mutants if mutant.count() != 1]
     if stale:  # also where only some are asked for, so that the list stays true
         stop("tests/mutate/operators.py: a fragment is to be in its file once, and\n  " + "\n  ".join(stale))
+    for mutant in mutants:
+        mutant.programs()
     return [m for m in mutants if word in str(m)]
 
 

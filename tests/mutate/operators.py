@@ -12,8 +12,12 @@ TESTS = {
     "framework/scene/": ["scene", "geometry"],
     "framework/core/state/": ["graph", "dynamics", "haptics"],
     "framework/core/math/": ["math", "haptics", "dynamics"],
+    "framework/haptics/surface_effects": ["shading", "texture", "haptics"],
+    "framework/haptics/": ["haptics", "surface"],
     "modules/haptics_proxy/": ["haptics", "surface"],
     "modules/god_object/": ["haptics", "surface"],
+    "modules/friction_cone/": ["haptics", "surface"],
+    "modules/shading/": ["shading", "haptics"],
     "modules/dynamics_ode/": ["dynamics"],
 }
 
@@ -30,27 +34,27 @@ SUPERVISED = "framework/device/supervision/supervised_device.cpp"
 
 SAFETY = [
     # the output stage
-    (STAGE, "clampMagnitude(good_, limits_.force, kOutputMagnitude)", "clampMagnitude(good_, 1e9, kOutputMagnitude)"),
+    (STAGE, "clampMagnitude(wanted, part.max, kOutputMagnitude)", "clampMagnitude(wanted, 1e9, kOutputMagnitude)"),
     (STAGE, "if (const double norm = force.norm(); norm > max) {", "if (const double norm = force.norm(); norm > 1e9) {"),
     (STAGE, "largest > max) {\n    force *= max / largest;", "largest > 1e9) {\n    force *= max / largest;"),
-    (STAGE, "if (!input.command.allFinite()) latches_ |= kOutputNotFinite;", ""),
+    (STAGE, "if (!input.command.f.allFinite() || !input.command.t.allFinite()) latches_ |= kOutputNotFinite;", ""),
     (STAGE, "if (input.lost) latches_ |= kOutputLost;", ""),
     (STAGE, "if (input.other_lost) latches_ |= kOutputOther;", ""),
     (STAGE, "if (input.resumed) latches_ |= kOutputGap;", ""),
     (STAGE, "if (over_speed && over_speed_) latches_", "if (over_speed_ && false) latches_"),
-    (STAGE, "&& last_.dot(input.v_WH) > 0;", "&& last_.dot(input.v_WH) < 0;"),
+    (STAGE, "&& last_.f.dot(input.v_WH) > 0)", "&& last_.f.dot(input.v_WH) < 0)"),
     (STAGE, "if (latches_ == 0) good_ = input.command;", "good_ = input.command;"),
     (STAGE, "  gain_ = 0;\n  over_speed_ = false;", "  gain_ = 1;\n  over_speed_ = false;"),
     (STAGE, "dropped ? gap_ + period : 0;", "dropped ? period : 0;"),
     (STAGE, "fading ? -period / limits_.fade_out", "fading ? period / limits_.fade_out"),
     (STAGE, "period / limits_.soft_start), 0.0, 1.0)", "10 * period / limits_.soft_start), 0.0, 1.0)"),
     (STAGE, "return dropped ? 0 : gain_;", "return gain_;"),
-    (STAGE, "input.catch_up ? 0 : limits_.force_rate * period", "input.catch_up ? 0 : 2 * limits_.force_rate * period"),
-    (STAGE, "input.catch_up ? 0 : limits_", "limits_"),
+    (STAGE, "input.catch_up ? 0 : force_.rate * period", "input.catch_up ? 0 : 2 * force_.rate * period"),
+    (STAGE, "input.catch_up ? 0 : force_", "force_"),
     (STAGE, "if (!(length > max)) return force;", "if (!(length > 1e9)) return force;"),
-    (STAGE, "budget_.step(last_.norm(), period);", ""),
-    (STAGE, "return clampMagnitude(force, budget_.maxForce(limits_.force), kOutputWarm);", "return force;"),
-    (STAGE, "if (limits_.passivity) energy_.sent(last_);", ""),
+    (STAGE, "part.budget.step(last.norm(), period);", ""),
+    (STAGE, "return clampMagnitude(force, part.budget.maxForce(part.max), kOutputWarm);", "return force;"),
+    (STAGE, "if (limits_.passivity) force_.energy.sent(last_.f);", ""),
     # what a rig and a scene may ask for
     (LIMITS, "if (!allowed || *allowed <= rated) return", "if (true) return"),
     (LIMITS, "imagined() ? rating_.force : 0.5 * rating_.force", "rating_.force"),
@@ -79,13 +83,13 @@ SAFETY = [
     (ENERGY, "given_ += sent_.dot(x - x_)", "given_ -= sent_.dot(x - x_)"),
     (ENERGY, "return wanted - damping_ * v;", "return wanted;"),
     # the transport watch, which has to see what the stage let through
-    (WATCH, "if (!std::isfinite(force)) fail", "if (false) fail"),
+    (WATCH, "if (!f.allFinite()) fail", "if (false) fail"),
     (WATCH, "if (step > slew", "if (step > 1e9 + slew"),
     (WATCH, "if (lost_for_ > kGone + tick.period && force > 0)", "if (false)"),
     # the process that holds the device
     (KEEPER, "if (alone_ || age_ > kHold)", "if (alone_)"),
     (KEEPER, "if (alone_ || age_ > kHold)", "if (age_ > kHold)"),
-    (KEEPER, "input.fresh && input.command == Vec3::Zero()", "input.fresh"),
+    (KEEPER, "input.fresh && input.command == Wrench()", "input.fresh"),
     (KEEPER, "bool dropped_ = true, alone_", "bool dropped_ = false, alone_"),
     (KEEPER, ".lost = input.finger.lost,", ".lost = false,"),
     (SUPERVISOR, "(life.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0", "false"),
@@ -95,8 +99,10 @@ SAFETY = [
 
 GOD = "modules/god_object/god_object.cpp"
 FRICTION = "modules/haptics_proxy/friction.cpp"
+CONE = "modules/friction_cone/friction_cone.cpp"
 NEAREST = "framework/haptics/nearest_feasible.cpp"
 SHADING = "modules/shading/shading.cpp"
+EFFECTS = "framework/haptics/surface_effects.cpp"
 CLOSEST = "framework/geometry/closest_point.h"
 SLIVER = "framework/geometry/closest_point.cpp"
 MASS = "framework/geometry/tri_mesh.cpp"
@@ -114,22 +120,22 @@ CORE = [
     (GOD, "if (slope < 0) reach =", "if (slope < -1e9) reach ="),
     (GOD, "overlapping = overlapping || piece.at.distance < r - tolerance.contact_gap;", ""),
     (GOD, "if (l > max) {\n        max = l;\n        worst = i;", "if (l > 1e9) {\n        max = l;\n        worst = i;"),
-    (GOD, "contact.nhat = (bare.x - g) / contact.depth;", "contact.nhat = bare.x - g;"),
+    (FRICTION, "contact.nhat = (free.x - now.g) / contact.depth;", "contact.nhat = free.x - now.g;"),
     (NEAREST, "const double det = 1 - c * c;", "const double det = 1 + c * c;"),
     (NEAREST, "(ri - c * rj) / det", "(ri + c * rj) / det"),
     (NEAREST, "if (lambda.minCoeff() < 0) return false;", ""),
     (NEAREST, "if (three(i, j, k)) return best_;", ""),
     (NEAREST, "if (slack(half_space) < slack(other)) other = half_space;", ""),
     # friction of a fingertip
-    (FRICTION, "last.slipping ? cone.mu_dynamic : cone.mu_static", "last.slipping ? cone.mu_static : cone.mu_static"),
-    (FRICTION, "displacement *= cone.mu_dynamic * contact.depth / length", "displacement *= cone.mu_static * contact.depth / length"),
-    (FRICTION, "length > mu * contact.depth", "length > 1.05 * mu * contact.depth"),
-    (FRICTION, "displacement -= displacement.dot(contact.nhat) * contact.nhat;", ""),
-    (FRICTION, "const Vec3 held = last.touching ? last.x : contact.first_touch;", "const Vec3 held = last.x;"),
+    (CONE, "kBorder * input.mu_dynamic : input.mu_static", "input.mu_static : input.mu_static"),
+    (CONE, "stretch *= input.mu_dynamic * input.depth / length", "stretch *= input.mu_static * input.depth / length"),
+    (CONE, "length > (input", "length > 1.05 * (input"),
+    (FRICTION, "one.displacement -= one.displacement.dot(contact.nhat) * contact.nhat;", ""),
+    (FRICTION, "const Vec3 from = last.touching ? last.x : contact.first_touch;", "const Vec3 from = last.x;"),
     (FRICTION, "contact.tangential_displacement = away - contact.depth * contact.nhat;", "contact.tangential_displacement = away;"),
     # smooth meshes
     (SHADING, "std::atan2(u.cross(v).norm(), u.dot(v)) * cross.normalized()", "cross.normalized()"),
-    (SHADING, "contact.tangential_displacement = turn * contact.tangential_displacement;", ""),
+    (EFFECTS, "contact.tangential_displacement = turn * contact.tangential_displacement;", ""),
     (SHADING, "return {1 - w1 - w2, w1, w2};", "return {1 - w1 - w2, w2, w1};"),
     # geometry
     (CLOSEST, "if (d3 >= 0 && d4 <= d3) return t.b;", ""),
@@ -145,9 +151,9 @@ CORE = [
     (ROTATION, "w_B.cross(inertia * w_B)", "(inertia * w_B).cross(w_B)"),
     # fingers, friction and torsion among bodies
     (ROW, "const double hk_d = h * k + d;", "const double hk_d = h * k;"),
-    (ROW, "row.slip = 1 / (h * k);", "row.slip = 0.1 / (h * k);"),
+    (ROW, "row.slip = rubs ? 1 / hk_t_d", "row.slip = rubs ? 0.1 / hk_t_d"),
     (ROW, "contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static", "contact.friction_static"),
-    (ROW, "std::clamp(age, 0.0, old_after) * contact.v_WH", "0.0 * contact.v_WH"),
+    (ROW, "const double ahead = std::clamp(age, 0.0, old_after);", "const double ahead = 0;"),
     (ROW, "1 - (age - old_after) / kFingerFade", "1 - 0 * (age - old_after) / kFingerFade"),
     (ROW, "own.p_WH = contact.p_WP - part.stretch_W;", "own.p_WH = contact.p_WH;"),
     (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * normal"),
@@ -156,6 +162,6 @@ CORE = [
     (CONTACTS, "std::sqrt(a.friction_dynamic * b.friction_dynamic)", "std::sqrt(a.friction_static * b.friction_static)"),
     (CONTACTS, "slip_speed < kRestSpeed ? std::sqrt(a.friction_static * b.friction_static)", "slip_speed < kRestSpeed ? a.friction_static"),
     (CONTACTS, "surface.motionN = c.depth / h_;", "surface.motionN = 0;"),
-    (CONTACTS, "slip(i, bodies).norm() < kRestSpeed ? mu.at_rest : mu.sliding", "mu.at_rest"),
-    (CONTACTS, "joints_[i].f_B_W = past->f_B_W;", ""),
+    (CONTACTS, "slip(i, bodies).norm() < kRestSpeed ? pair.at_rest : pair.sliding", "pair.at_rest"),
+    (CONTACTS, "joints_[i].f_B_W = same->f_B_W;", ""),
 ]
