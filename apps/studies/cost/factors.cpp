@@ -16,7 +16,7 @@ namespace presa::cost {
 namespace {
 
 /// What a scene must have for a knob to do something.
-enum class Need { kFingers, kMotion, kHeldMotion, kMeshes };
+enum class Need { kNothing, kFingers, kMotion, kHeldMotion, kMeshes };
 
 struct KnownFactor {
   const char* name;
@@ -25,7 +25,7 @@ struct KnownFactor {
 };
 
 constexpr KnownFactor kFactors[] = {
-    {"haptic_rate", "rates/haptic", Need::kFingers},
+    {"haptic_rate", "rates/haptic", Need::kNothing},  // its ticks cost time, also without a finger
     {"collision_rate", "rates/collision", Need::kMeshes},
     {"dynamics_rate", "rates/dynamics", Need::kMotion},
     {"substeps", "dynamics/substeps", Need::kMotion},
