@@ -8,10 +8,10 @@ namespace presa::assembling {
 namespace {
 
 constexpr double kMaxAskew = 0.25, kAskewStep = 0.05;  // angle of the line to level across the top [rad]
-constexpr double kLowest = 0.002, kHighest = 0.02,
-                 kWedgeStep = 0.0015;  // height of the line above the centre of mass [m]
-constexpr double kAskewCosts = 0.02;   // [m/rad]
-constexpr double kOfCone = 0.7;        // usable share of the friction angle
+// height of the line above the centre of mass [m]
+constexpr double kLowest = 0.002, kHighest = 0.02, kWedgeStep = 0.0015;
+constexpr double kAskewCosts = 0.02;  // [m/rad]
+constexpr double kOfCone = 0.7;       // usable share of the friction angle
 
 /// Intersection of a line with the surface of a convex mesh.
 struct Exit {

@@ -7,7 +7,7 @@ namespace presa::falcon_model {
 namespace {
 
 constexpr std::uint8_t kOpen = '<', kClose = '>', kBase = 0x41;
-constexpr double kReplies = 20e-6;  // delay before an answer [s]
+constexpr double kReplyDelay = 20e-6;  // delay before an answer [s]
 
 /// Decodes four nibbles, least significant first; nullopt for a byte that is no nibble.
 std::optional<int> wordOf(const std::uint8_t* bytes) {
@@ -130,7 +130,7 @@ void Processor::greet(const WireByte& byte, SerialLine& line) {
   heard_.clear();
   if (greetings_++ < loader_.deaf_greetings) return;
   state_ = State::kGreeted;
-  line.processorWrites(std::span(kAnswer).subspan(loader_.zero_before ? 0 : 1), kLoaderBaud, 0, byte.time + kReplies);
+  line.processorWrites(std::span(kAnswer).subspan(loader_.zero_before ? 0 : 1), kLoaderBaud, 0, byte.time + kReplyDelay);
 }
 
 void Processor::load(const WireByte& byte, SerialLine& line) {
@@ -155,7 +155,7 @@ void Processor::load(const WireByte& byte, SerialLine& line) {
     }
     if (fault != nullptr && fault->kind == UploadFault::Kind::kLostEcho) return;
   }
-  line.processorWrites({&echo, 1}, kUploadBaud, 0, byte.time + kReplies);
+  line.processorWrites({&echo, 1}, kUploadBaud, 0, byte.time + kReplyDelay);
 }
 
 std::optional<Request> Processor::assemble(std::uint8_t value) {

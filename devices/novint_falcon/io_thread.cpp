@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kWake = 250'000;   // [ns]
 constexpr int kPriority = 82;             // above the haptic thread (80), so that it does not delay this thread
 constexpr double kZeroForceTime = 20e-3;  // [s] of zero force at the end
-constexpr double kReplyPatience = 1;      // [s] max wait at the end for a device that accepts no requests
+constexpr double kEndPatience = 1;      // [s] max wait at the end for a device that accepts no requests
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void FalconIo::run() noexcept {
     }
     step(seconds(now));
     if (end > 0 && link_.status().state == LinkState::kDead) return;
-    if (end > 0 && seconds(now) >= (link_.status().quiet ? end : end + kReplyPatience)) return;
+    if (end > 0 && seconds(now) >= (link_.status().quiet ? end : end + kEndPatience)) return;
   }
 }
 

@@ -13,10 +13,10 @@ namespace presa::view {
 namespace {
 
 const Vec3 kFrameColor(0.30, 0.08, 0.85), kHandColor(0.20, 0.85, 0.08);
-constexpr double kOfBody = 0.6, kSmallestGlyph = 0.006,
-                 kLargestGlyph = 0.10;  ///< size: share of the body's radius, bounds [m]
+// size: share of the body's radius, bounds [m]
+constexpr double kOfBody = 0.6, kSmallestGlyph = 0.006, kLargestGlyph = 0.10;
 // relative to the size
-constexpr double kThick = 0.035, kAxis = 1.2, kDisc = 0.24, kDiscHeight = 0.10, kBall = 0.30, kStopBlock = 0.36,
+constexpr double kThick = 0.035, kAxis = 1.2, kDisc = 0.24, kDiscHeight = 0.10, kBall = 0.30, kFixedBlock = 0.36,
                  kStop = 0.45;
 constexpr double kPieces = 48;  ///< of a full turn
 
@@ -92,7 +92,7 @@ JointGlyphs::JointGlyphs(const Scene& scene, const JointMotion& motion, const Bo
     const double s = glyph.size;
     switch (joint.type) {
       case JointType::kFixed:
-        glyph.X_WB->addChild(boxGeometry(Vec3::Constant(kStopBlock * s), kFrameColor));
+        glyph.X_WB->addChild(boxGeometry(Vec3::Constant(kFixedBlock * s), kFrameColor));
         break;
       case JointType::kBall:
         glyph.X_WB->addChild(sphereGeometry(kBall * s, kFrameColor, kQuick));

@@ -99,10 +99,14 @@ TEST(Layering, OnlyItsOwnPlugInLinksAnEngine) {
       {"libassimp", "presa_mesh_import.so"}, {"libmeshoptimizer", "presa_mesh_decimate.so"},
       {"libqhull", "presa_hull.so"},         {"libcrypto", "presa_checksum.so"},
       {"libusb", "presa_novint_falcon.so"},  {"libddsc", "presa_bus_dds.so"},
-      {"libpng", "presa_texture_image.so"},
+      {"libpng", "presa_texture_image.so"},  {"libmujoco", ""},
   };
   const std::filesystem::path build = PRESA_BINARY_DIR;
-  std::vector<std::filesystem::path> binaries{build / "bin/presa", build / "lib/presa/libpresa_framework.so"};
+  std::vector<std::filesystem::path> binaries;
+  for (const auto& entry : std::filesystem::directory_iterator(build / "bin")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "presa" || name.starts_with("presa-")) binaries.push_back(entry.path());
+  }
   for (const auto& entry : std::filesystem::directory_iterator(build / "lib/presa")) {
     if (entry.path().extension() != ".xml") binaries.push_back(entry.path());  // not a manifest
   }

@@ -140,10 +140,10 @@ std::vector<std::string> wordsOf(int argc, char** argv, const Program& program) 
   return words;
 }
 
-/// `presa help COMMAND …` is `presa COMMAND … --help`, for the commands of other programs, too.
+/// `presa help COMMAND …` and `presa --help COMMAND …` are `presa COMMAND … --help`, for the commands of other programs, too.
 void turnHelp(int argc, char** argv) {
   static char help[] = "--help";
-  if (argc < 3 || std::strcmp(argv[1], "help") != 0) return;
+  if (argc < 3 || (std::strcmp(argv[1], "help") != 0 && std::strcmp(argv[1], "--help") != 0)) return;
   std::rotate(argv + 1, argv + 2, argv + argc);
   argv[argc - 1] = help;
 }

@@ -7,8 +7,8 @@
 
 namespace presa {
 
-/// The main() of Presa's programs. Users type only `presa`; a command of another app is a program of its own in the
-/// same folder, named after the command with dashes: `presa experiment run` starts `presa-experiment run`, `presa
+/// The main() of Presa's programs. Users type only `presa`; many commands are programs of their own in the same folder,
+/// named after the command with dashes: `presa experiment run` starts `presa-experiment run`, `presa
 /// device faults` starts `presa-device-faults`. Other programs in this folder with such names are found in the same
 /// way.
 struct Program {
