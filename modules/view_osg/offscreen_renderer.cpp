@@ -14,17 +14,19 @@
 namespace presa::view {
 namespace {
 
-constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered at twice its size [pixel]
+constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered larger than it is [pixel]
+constexpr int kLarger = 2;       ///< so many times
+constexpr double kVideoLarger = 1.5;
 
-int supersampleOf(const PictureOptions& options) { return std::max(options.width, options.height) > kSmoothed ? 1 : 2; }
+bool isSmoothed(const PictureOptions& options) { return std::max(options.width, options.height) <= kSmoothed; }
 
 class OffscreenRenderer final : public Renderer {
  public:
-  OffscreenRenderer(Picture& picture, const PictureOptions& options, bool film)
+  OffscreenRenderer(Picture& picture, const PictureOptions& options, Pictures pictures)
       : picture_(picture),
         follow_(options, picture.elevation()),
         background_(options.background),
-        supersample_(film ? 1 : supersampleOf(options)),
+        supersample_(pictures == Pictures::kOne && isSmoothed(options) ? kLarger : 1),
         aspect_(static_cast<double>(options.width) / options.height),
         context_(supersample_ * options.width, supersample_ * options.height) {
     const int width = supersample_ * options.width, height = supersample_ * options.height;
@@ -32,17 +34,18 @@ class OffscreenRenderer final : public Renderer {
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setKeyEventSetsDone(0);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
-    if (film) {
+    if (pictures != Pictures::kOne) {
       picture.setQuick(true);
       retained_.emplace(picture);
-      retained_->setSize(width, height, supersampleOf(options));
+      const double larger = pictures == Pictures::kVideo ? kVideoLarger : kLarger;
+      retained_->setSize(width, height, isSmoothed(options) ? larger : 1);
     }
     viewer_.setSceneData(root());
     osg::Camera* camera = viewer_.getCamera();
     camera->setFinalDrawCallback(grabber_);
     camera->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
     clearTo(1);  // seen only without a sky
-    if (!film) picture.setSize(width, height);
+    if (!retained_) picture.setSize(width, height);
     picture.hud().setAspect(aspect_);
     viewer_.realize();
   }
@@ -90,7 +93,7 @@ class OffscreenRenderer final : public Renderer {
   void clearTo(float grey) { viewer_.getCamera()->setClearColor({grey, grey, grey, 1}); }
 
   Picture& picture_;
-  std::optional<RetainedSpace> retained_;  // for films
+  std::optional<RetainedSpace> retained_;  // for more than one picture
   FollowCamera follow_;
   FinishWalk walk_;
   const PictureOptions::Background background_;
@@ -104,8 +107,8 @@ class OffscreenRenderer final : public Renderer {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options, bool film) {
-  return std::make_unique<OffscreenRenderer>(picture, options, film);
+std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options, Pictures pictures) {
+  return std::make_unique<OffscreenRenderer>(picture, options, pictures);
 }
 
 }  // namespace presa::view

@@ -118,7 +118,7 @@ void RetainedSpace::setSize(int width, int height, double share) {
   width_ = static_cast<int>(std::lround(share * width)), height_ = static_cast<int>(std::lround(share * height));
   picture_.setSize(width_, height_);
   camera_->resizeAttachments(width_, height_);
-  // of twice the size, each pixel is the mean of four: the nearest of them would depend on rounding, and smooth nothing
+  // of a larger size, each pixel is a mean of four: the nearest of them would depend on rounding, and smooth nothing
   const auto filter = share != 1 ? osg::Texture::LINEAR : osg::Texture::NEAREST;
   space_->setFilter(osg::Texture::MIN_FILTER, filter);
   space_->setFilter(osg::Texture::MAG_FILTER, filter);

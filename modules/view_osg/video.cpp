@@ -21,7 +21,7 @@ namespace {
 
 // of x264: 60 % of its default's time, for files a tenth larger that look the same
 constexpr const char *kEffort = "veryfast", *kQuality = "20";
-constexpr int kPipe = 1 << 20;               ///< capacity [byte]: a frame of 720 lines takes three of them
+constexpr int kPipe = 1 << 20;  ///< capacity [byte]: a frame of 720 lines takes three of them
 
 /// Writes without raising SIGPIPE, which an ffmpeg that ends early would send to the whole process.
 bool writeAll(int pipe, const unsigned char* bytes, std::size_t count) {
@@ -60,12 +60,18 @@ void Video::start(int width, int height) {
   }
   const std::string size = std::to_string(width) + "x" + std::to_string(height), rate = std::to_string(rate_);
   // OSG's rows start at the bottom; H.264 with chroma subsampling requires even sizes
-  const std::array words{"ffmpeg",      "-y",         "-loglevel", "error",
-                         "-f",          "rawvideo",   "-pix_fmt",  "rgb24",
-                         "-s",          size.c_str(), "-r",        rate.c_str(),
-                         "-i",          "-",          "-vf",       "vflip,crop=trunc(iw/2)*2:trunc(ih/2)*2",
-                         "-pix_fmt",    "yuv420p",    "-preset",   kEffort,
-                         "-crf",        kQuality,     "-f",        "mp4",
+  const std::array words{"ffmpeg",      "-y",
+                         "-loglevel",   "error",
+                         "-f",          "rawvideo",
+                         "-pix_fmt",    "rgb24",
+                         "-s",          size.c_str(),
+                         "-r",          rate.c_str(),
+                         "-i",          "-",
+                         "-vf",         "vflip,crop=trunc(iw/2)*2:trunc(ih/2)*2",
+                         "-pix_fmt",    "yuv420p",
+                         "-preset",     kEffort,
+                         "-crf",        kQuality,
+                         "-f",          "mp4",
                          file_.c_str(), static_cast<const char*>(nullptr)};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -74,7 +80,8 @@ void Video::start(int width, int height) {
   posix_spawnattr_t apart;
   posix_spawnattr_init(&apart);
   posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
-  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, &apart, const_cast<char* const*>(words.data()), environ);
+  const int failed =
+      posix_spawnp(&process_, "ffmpeg", &actions, &apart, const_cast<char* const*>(words.data()), environ);
   posix_spawnattr_destroy(&apart);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);

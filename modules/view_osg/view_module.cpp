@@ -72,7 +72,10 @@ void ViewModule::start() {
 std::unique_ptr<Renderer> ViewModule::makeRenderer() {
   const std::string title = "Presa: " + world_->scene.name;
   if (canvas_ != nullptr) return makeWallRenderer(*picture_, *canvas_, windowed(), title);
-  if (!windowed()) return makeOffscreenRenderer(*picture_, options_.picture, video_ || !options_.screenshots.empty());
+  if (!windowed()) {
+    const Pictures some = options_.screenshots.empty() ? Pictures::kOne : Pictures::kSome;
+    return makeOffscreenRenderer(*picture_, options_.picture, video_ ? Pictures::kVideo : some);
+  }
   const bool nameless = options_.participant || forVisitors(*world_);
   return makeWindowRenderer(*picture_, nameless ? "Presa" : title,
                             {.pointer = pointer_ ? &*pointer_ : nullptr,
