@@ -1,5 +1,7 @@
 #include "experiments/study/study_run.h"
 
+#include <cmath>
+
 namespace presa {
 
 /// Passes every sample to the observer.
@@ -7,9 +9,13 @@ class StudyRun::Probe final : public HapticObserver {
  public:
   Probe() : HapticObserver("study_probe") {}
   void observe(const HapticSample& sample) noexcept override {
-    if (observer) observer(sample);
+    if (!observer) return;
+    if (!line) return observer(sample);
+    const ForceCommand& felt = line->pass(sample.command);
+    observer({sample.tick, sample.device, sample.contact, felt, sample.objects, sample.objects_version});
   }
   Observer observer;
+  std::optional<DelayLine<ForceCommand>> line;  // with a latency
 };
 
 StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& more) {
@@ -23,14 +29,21 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& 
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
 
   engines_ = engineVersions(loaded.plan);
+  const double period = RateTable(loaded.world->scene.rates).period(RateGroup::kHaptic);
+  const auto latency = static_cast<std::size_t>(std::lround(spec.conditions.latency / period));
+  for (DeviceList* list : {&devices, &loaded.devices})
+    for (std::unique_ptr<Device>& device : *list) device = behindLine(std::move(device), latency);
   Session::Options session_options;
   session_options.trace_rate = spec.trace_rate;
   session_options.devices = std::move(devices);
   if (more) session_options.more.push_back(more(loaded.world));
   auto probe = std::make_unique<Probe>();
   probe_ = probe.get();
+  if (latency > 0) probe_->line.emplace(latency, ForceCommand(loaded.world->scene.devices.size()));
   session_options.more.push_back(std::move(probe));
   run_.emplace(std::move(loaded), control_, std::move(session_options));
+  if (LateTicks late(spec.conditions, spec.seed); late.any())
+    delay([late](RateGroup group, double) mutable { return late(group); });
 }
 
 StudyRun::~StudyRun() = default;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/conditions.h"
 #include "framework/session/run.h"
 
 namespace presa {
@@ -18,6 +19,7 @@ struct StudySpec {
   std::uint64_t seed = 1;
   double trace_rate = 0;   ///< samples per second in monitor().trace(); 0: none
   double force_share = 1;  ///< scale of the force limits
+  Conditions conditions{};
 };
 
 /// One lockstep run of a scene in virtual time, without terminal, view or recording. Bit-identical for the same spec.
@@ -35,10 +37,11 @@ class StudyRun {
   double duration() const noexcept { return run_->options().duration; }
   /// See engineVersions().
   const std::vector<std::string>& engines() const noexcept { return engines_; }
-  /// `observer` is called in every haptic tick, last in the group. Call before run().
+  /// `observer` is called in every haptic tick, last in the group; with a latency, its command is the one that the
+  /// fingers feel. Call before run().
   void observe(Observer observer);
-  /// `held_up` is asked before every tick of a group whether to skip it (see LockstepExecutor::delay). Call before
-  /// run().
+  /// `held_up` is asked before every tick of a group whether to skip it (see LockstepExecutor::delay), in place of the
+  /// conditions' late ticks. Call before run().
   void delay(std::function<bool(RateGroup, double)> held_up);
   /// Makes timing() report processor time of this thread instead of wall time. Call before run().
   void timeProcessor() { run_->executor().timeBy(threadCpuNs); }

@@ -12,6 +12,7 @@
 #include "apps/common/machine.h"
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
+#include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/forecast.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/machine_turn.h"
@@ -192,6 +193,8 @@ StudySpec Driver::spec(const Task& task) const {
   spec.rig = rig_;
   spec.sets = study_.inputs.sets;
   spec.sets.insert(spec.sets.end(), task.sets.begin(), task.sets.end());
+  Diagnostics known;  // reported by the plan
+  spec.conditions = takeConditions(spec.sets, known);
   spec.duration = study_.duration;
   spec.seed = study_.seed;
   return spec;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/common/file_text.h"
+#include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/hash.h"
 #include "apps/studies/cost/law_factor.h"
 #include "framework/scene/load.h"
@@ -41,6 +42,10 @@ constexpr KnownFactor kFactors[] = {
     {"collision_index", "collision/index", Need::kMeshes},
     {"patch_margin", "collision/margin", Need::kMeshes},
     {"fingertip_radius", "device/*/fingertip_radius", Need::kFingers},
+    {"latency", "run/latency", Need::kFingers},
+    {"haptic_jitter", "run/haptic_jitter", Need::kFingers},
+    {"collision_jitter", "run/collision_jitter", Need::kMeshes},
+    {"dynamics_jitter", "run/dynamics_jitter", Need::kMotion},
 };
 
 constexpr const char *kMeshFactor = "haptic_mesh", *kMeshFolder = "/meshes/";  // of a study's own folder
@@ -214,11 +219,14 @@ std::vector<std::string> factorNames() {
 std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, const std::string& folder,
                            Diagnostics& diagnostics) {
   std::vector<Override> overrides;
-  for (const std::string& set : with(inputs.sets, sets)) {
+  std::vector<std::string> all = with(inputs.sets, sets);
+  const Conditions conditions = takeConditions(all, diagnostics);
+  for (const std::string& set : all) {
     const std::size_t equals = set.find('=');
     if (equals != std::string::npos) overrides.push_back({set.substr(0, equals), set.substr(equals + 1)});
   }
   Hash hash;
+  if (conditions != Conditions{}) hash.add(toText(conditions));
   const Scene scene = loadScene(inputs.scene, overrides, diagnostics);
   const std::string own = folder + kMeshFolder;
   std::string resolved = scene.resolved_xml;
@@ -320,11 +328,11 @@ void nameSettings(Study& study) {
   const std::uint64_t base = study.settings.front().scene_hash;
   std::map<std::string, std::string> usual;  // the scene's own value of each factor
   for (const Factor& factor : study.factors) {
-    usual[factor.name] = "as in the scene";
-    for (const FactorValue& value : factor.values) {
+    const auto own = std::ranges::find_if(factor.values, [&](const FactorValue& value) {
       const Checked alone = checkScene(study.inputs, value.sets, study.folder);
-      if (!alone.diagnostics.hasErrors() && alone.hash == base) usual[factor.name] = value.name;
-    }
+      return !alone.diagnostics.hasErrors() && alone.hash == base;
+    });
+    usual[factor.name] = own == factor.values.end() ? "as in the scene" : own->name;
   }
   for (Setting& setting : study.settings) {
     const std::map<std::string, std::string> chosen(setting.choices.begin(), setting.choices.end());

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "apps/common/terminal/text.h"
+#include "apps/studies/cost/condition_factor.h"
 
 namespace presa::cost {
 namespace {
@@ -42,7 +43,8 @@ bool beats(const Judged& a, const Judged& b) {
 }
 
 bool comparable(const Result& result, std::size_t index) {
-  return engineOf(result.outcomes[index].setting) == engineOf(result.outcomes.front().setting);
+  const Setting& setting = result.outcomes[index].setting;
+  return engineOf(setting) == engineOf(result.outcomes.front().setting) && !hasConditions(setting);
 }
 
 std::vector<Judged> frontOf(const Result& result, const std::string& metric) {
@@ -75,7 +77,8 @@ std::optional<FrontDistance> distanceToFront(const Result& result, const std::st
 std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit) {
   std::optional<Judged> best;
   for (const Judged& each : judged(result, metric)) {
-    if (!(result.claimed(result.outcomes[each.index], metric) < limit)) continue;
+    const Outcome& outcome = result.outcomes[each.index];
+    if (hasConditions(outcome.setting) || !(result.claimed(outcome, metric) < limit)) continue;
     if (!best || each.cost.median < best->cost.median ||
         (each.cost.median == best->cost.median && each.error < best->error))
       best = each;
@@ -96,7 +99,8 @@ std::optional<std::size_t> cheapestUnfelt(const Result& result) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
     const Outcome& outcome = result.outcomes[i];
-    if (!isUnfelt(result, i) || !outcome.failure.empty() || !outcome.timed()) continue;
+    if (!isUnfelt(result, i) || !outcome.failure.empty() || !outcome.timed() || hasConditions(outcome.setting))
+      continue;
     if (!best || outcome.perSecond().median < result.outcomes[*best].perSecond().median) best = i;
   }
   return best;

@@ -30,8 +30,8 @@ bool cheaper(const Judged& a, const Judged& b);
 /// True when `a` is more accurate and no dearer, or cheaper and as accurate. Never both beats(a, b) and beats(b, a).
 bool beats(const Judged& a, const Judged& b);
 
-/// True when the setting could replace the default: it has the default's engine. Other engines do not support fingers
-/// and serve only for comparison.
+/// True when the setting could replace the default: it has the default's engine, and no conditions. Other engines do not
+/// support fingers and serve only for comparison.
 bool comparable(const Result& result, std::size_t index);
 
 /// The comparable settings that no comparable setting beats, by rising cost; errors do not rise along it.
@@ -53,9 +53,9 @@ std::optional<FrontDistance> distanceToFront(const Result& result, const std::st
 /// known counts as felt.
 bool isUnfelt(const Result& result, std::size_t index);
 
-/// Index of the cheapest setting, of any engine, whose error is below `limit`.
+/// Index of the cheapest setting without conditions, of any engine, whose error is below `limit`.
 std::optional<std::size_t> cheapestBelow(const Result& result, const std::string& metric, double limit);
-/// Index of the cheapest setting below the just-noticeable difference in every metric that has one.
+/// Index of the cheapest setting without conditions below the just-noticeable difference in every metric that has one.
 std::optional<std::size_t> cheapestUnfelt(const Result& result);
 
 }  // namespace presa::cost

@@ -21,7 +21,7 @@ void addStudyOptions(Command command, const std::shared_ptr<Arguments>& a) {
   command.option("SCENE", a->request.input, "scene file, or a study such as experiments/accuracy_cost/cube_grasp.xml");
   command
       .option("--knob", a->request.factors,
-              "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, law, …\n"
+              "NAME=VALUE,VALUE…: what to vary; several make a grid. NAME is dynamics_rate, law, latency, …\n"
               "or a path as after --set (default: a sweep of what the scene uses)")
       .oneValueEach();
   command.option("--metric", a->request.metrics, "error to show (default: all that the scene has)").oneValueEach();

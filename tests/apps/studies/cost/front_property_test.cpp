@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/verdict.h"
 
 namespace presa::cost {
@@ -21,6 +22,7 @@ Outcome outcome(std::size_t i) {
   Outcome made;
   made.setting.name = i == 0 ? "default" : "setting" + std::to_string(i);
   made.setting.choices = {{"engine", *rc::gen::inRange(0, 5) == 0 && i > 0 ? "bullet" : "ode"}};
+  if (i > 0 && *rc::gen::inRange(0, 5) == 0) made.setting.sets = {"run/latency=0.01"};
   const double cost = *figure(), spread = 0.01 * *rc::gen::inRange(0, 12);
   for (const double part : {1 - spread, 1.0, 1 + spread}) {
     Timing timing;
@@ -144,6 +146,7 @@ TEST(FrontProperties, TheBetterSettingIsWorseInNothingThatIsJudgedOrFelt) {
     const auto better = betterSetting(result);
     if (!better) return;
     RC_ASSERT(comparable(result, *better) && result.outcomes[*better].failure.empty());
+    RC_ASSERT(!hasConditions(result.outcomes[*better].setting));
     for (const std::string& metric : judgedMetrics(result)) {
       if (!distanceToFront(result, metric)) continue;
       const Judged usual = judged(result, metric).front();
@@ -167,10 +170,13 @@ TEST(FrontProperties, TheCheapestIsTheCheapest) {
     for (const auto& [metric, limit] : result.reference.noticeable) {
       const auto found = cheapestBelow(result, metric, limit);
       for (const Judged& each : judged(result, metric)) {
-        if (!(result.claimed(result.outcomes[each.index], metric) < limit)) continue;
+        const Outcome& outcome = result.outcomes[each.index];
+        if (hasConditions(outcome.setting) || !(result.claimed(outcome, metric) < limit)) continue;
         RC_ASSERT(found && result.outcomes[*found].perSecond().median <= each.cost.median);
       }
-      if (found) RC_ASSERT(result.claimed(result.outcomes[*found], metric) < limit);
+      if (!found) continue;
+      RC_ASSERT(!hasConditions(result.outcomes[*found].setting));
+      RC_ASSERT(result.claimed(result.outcomes[*found], metric) < limit);
     }
   });
 }

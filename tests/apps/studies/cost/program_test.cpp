@@ -43,10 +43,10 @@ TEST(Cost, RefusesBadInputBeforeAnyWork) {
   EXPECT_EQ(
       idle.err,
       "--knob dynamics_rate: error[E816]: knob 'dynamics_rate' does nothing in this scene: nothing in it moves\n"
-      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius\n"
+      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius, latency, haptic_jitter\n"
       "--knob patch_margin: error[E816]: knob 'patch_margin' does nothing in this scene: no finger of it touches a "
       "mesh\n"
-      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius\n");
+      "  help: knobs that do something: haptic_rate, renderer, fingertip_radius, latency, haptic_jitter\n");
   const std::string file = scratch("a_file");
   std::ofstream(file) << "x";
   const auto unwritable = presa(kSmall + "--out " + file + "/below");
