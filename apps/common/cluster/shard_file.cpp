@@ -59,7 +59,8 @@ std::vector<ShardFile> readShards(const std::vector<std::string>& folders, const
   for (const std::string& folder : folders) {
     if (!std::filesystem::exists(folder + kFile)) {
       diagnostics.error(kNoShard, {folder, 0, 0}, "holds no finished shard: there is no shard.json",
-                        "name the folders that " + command + " --shard I/N --out FOLDER wrote");
+                        "name the folders that " + command +
+                            " --shard I/N --out FOLDER wrote; repeat the command of one that was stopped");
       continue;
     }
     try {

@@ -22,7 +22,7 @@ int runPart(const Arguments& a, const Study& study) {
   std::filesystem::remove(study.folder + "/shard.json");
   if (!runShard(study, shard, {a.jobs, a.resume, a.instructions}))
     return interrupted(study.folder, commandLine(a) + " --shard " + name + " --out " + study.folder + " --resume");
-  writeShardFile(study, a.request, a.instructions);
+  writeShard(study, a.request, a.instructions);
   std::size_t settings = 0;
   for (std::size_t i = 0; i < study.settings.size(); ++i) settings += shard.holds(i) ? 1 : 0;
   std::printf("Shard %s: %zu of %zu settings. When all shards are there: presa cost merge FOLDER…\n%s\n", name.c_str(),

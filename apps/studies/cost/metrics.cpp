@@ -2,72 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
+#include "apps/studies/cost/comparison.h"
+#include "apps/studies/cost/felt_metrics.h"
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/scene/manifest.h"
 
 namespace presa::cost {
 namespace {
 
-using Value = std::optional<double>;
-
 double distance(const double (&a)[3], const double (&b)[3]) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// Calls `use` with the rows of both traces at each common instant inside the setting's compared window.
-void atCommonTimes(const Evidence& setting, const Evidence& reference,
-                   const std::function<void(std::size_t, std::size_t)>& use) {
-  const auto& a = setting.trace.time_ns;
-  const auto& b = reference.trace.time_ns;
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i] < b[j]) {
-      ++i;
-    } else if (b[j] < a[i]) {
-      ++j;
-    } else {
-      const double time = static_cast<double>(a[i]) * 1e-9;
-      if (time >= setting.compared_from && time < setting.compared_to) use(i, j);
-      ++i, ++j;
-    }
-  }
+Value difference(const Value& a, const Value& b, double unit = 1) {
+  return a && b ? Value(unit * std::abs(*a - *b)) : std::nullopt;
 }
-
-/// Accumulates RMS and maximum.
-struct Sum {
-  double squares = 0, largest = 0;
-  std::size_t count = 0;
-  void add(double x) {
-    squares += x * x;
-    largest = std::max(largest, x);
-    ++count;
-  }
-  Value rms() const { return count > 0 ? Value(std::sqrt(squares / static_cast<double>(count))) : std::nullopt; }
-  Value peak() const { return count > 0 ? Value(largest) : std::nullopt; }
-};
-
-/// The largest value over the fingers of `result` of `error`, over the instants at which both touch (`both_touch`) or
-/// at least one touches.
-Value fingers(const Evidence& s, const Evidence& r, double (*error)(const FingerSample&, const FingerSample&),
-              bool both_touch, Value (Sum::*result)() const) {
-  std::vector<Sum> sums(s.trace.fingers);
-  if (s.trace.fingers != r.trace.fingers) return std::nullopt;
-  atCommonTimes(s, r, [&](std::size_t i, std::size_t j) {
-    for (std::size_t f = 0; f < sums.size(); ++f) {
-      const FingerSample& a = s.trace.finger[i * sums.size() + f];
-      const FingerSample& b = r.trace.finger[j * sums.size() + f];
-      const bool counts = both_touch ? a.touching > 0 && b.touching > 0 : a.touching > 0 || b.touching > 0;
-      if (counts) sums[f].add(error(a, b));
-    }
-  });
-  Value worst;
-  for (const Sum& sum : sums) {
-    if (const Value v = (sum.*result)()) worst = std::max(worst.value_or(0), *v);
-  }
-  return worst;
-}
+Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
 
 /// RMS difference of the forces that the devices hold, at every tick of the reference, of the worst finger. A setting
 /// with a slow rate holds old forces.
@@ -107,12 +59,17 @@ Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySam
   return sum.rms();
 }
 
-double forceError(const FingerSample& a, const FingerSample& b) { return distance(a.force, b.force); }
-double forceSteps(const FingerSample& a, const FingerSample& b) {
-  const double force = std::hypot(b.force[0], b.force[1], b.force[2]);
-  return forceError(a, b) / (kForceStep * std::max(force, kMinForce));
+// while one of the two touches
+Value forceError(const FingerSample& a, const FingerSample& b) {
+  return a.touching > 0 || b.touching > 0 ? Value(distance(a.force, b.force)) : std::nullopt;
 }
-double proxyError(const FingerSample& a, const FingerSample& b) { return 1e3 * distance(a.proxy, b.proxy); }
+Value forceSteps(const FingerSample& a, const FingerSample& b) {
+  const double force = std::hypot(b.force[0], b.force[1], b.force[2]);
+  return scaled(forceError(a, b), 1 / (kForceStep * std::max(force, kMinForce)));
+}
+Value proxyError(const FingerSample& a, const FingerSample& b) {
+  return a.touching > 0 && b.touching > 0 ? Value(1e3 * distance(a.proxy, b.proxy)) : std::nullopt;
+}
 double positionError(const BodySample& a, const BodySample& b) { return 1e3 * distance(a.p, b.p); }
 double angleError(const BodySample& a, const BodySample& b) {
   // |q_a - (± q_b)| = 2 sin(angle / 4): accurate for small angles, which the scalar product would lose to rounding
@@ -149,11 +106,6 @@ Value gripError(const Evidence& s, const Evidence& r) {
   return worst;
 }
 
-Value difference(const Value& a, const Value& b, double unit = 1) {
-  return a && b ? Value(unit * std::abs(*a - *b)) : std::nullopt;
-}
-Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
-
 /// Just-noticeable difference [N]: a tenth of the reference's force, RMS over contact.
 Value forceNoticeable(const Evidence& r) {
   Sum worst;
@@ -183,19 +135,17 @@ const std::vector<Metric>& ownMetrics() {
   static const std::vector<Metric> metrics{
       {"force_rms", "Force, RMS error", "N",
        "root of the mean square of |force − reference| of the worst finger, while one of the two touches",
-       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceError, false, &Sum::rms); }, false,
+       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceError, &Sum::rms); }, false,
        forceNoticeable},
       {"force_peak", "Force, largest error", "N", "largest |force − reference| of any finger",
-       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceError, false, &Sum::peak); }, false,
+       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceError, &Sum::peak); }, false,
        forceNoticeable},
       {"force_rms_jnd", "Force, RMS error in just-noticeable steps", "steps",
        "as force_rms, each difference in tenths of the reference's force at that moment (of 0.5 N below that)",
-       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceSteps, false, &Sum::rms); }, false,
-       oneStep},
+       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceSteps, &Sum::rms); }, false, oneStep},
       {"force_peak_jnd", "Force, largest error in just-noticeable steps", "steps",
        "as force_peak, in tenths of the reference's force at that moment (of 0.5 N below that)",
-       [](const Evidence& s, const Evidence& r) { return fingers(s, r, forceSteps, false, &Sum::peak); }, false,
-       oneStep},
+       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceSteps, &Sum::peak); }, false, oneStep},
       {"force_held", "Force as held, RMS error", "N",
        "root of the mean square of |force that the device holds − reference| over all time, between the ticks too; "
        "worst "
@@ -204,8 +154,24 @@ const std::vector<Metric>& ownMetrics() {
       {"force_held_jnd", "Force as held, RMS error in just-noticeable steps", "steps",
        "as force_held, in tenths of the reference's force at that moment (of 0.5 N below that)",
        [](const Evidence& s, const Evidence& r) { return held(s, r, true); }, false, oneStep},
+      {"torque", "Torque, RMS error", "mN m",
+       "root of the mean square of |torque − reference| of the worst finger, while one of the two touches; for "
+       "oriented "
+       "tools",
+       torqueError, false, none},
+      {"stiffness", "Stiffness as felt, RMS error", "%",
+       "felt force over the distance from finger to proxy, against the reference's, while both are pressed in by 0.05 "
+       "mm "
+       "or "
+       "more; worst finger",
+       stiffnessError, false, [](const Evidence&) -> Value { return kStiffnessStep; }},
+      {"friction", "Friction as felt, RMS error", "%",
+       "tangential over normal force, against the reference's, while the reference slips and both touch; worst finger",
+       frictionError, false, [](const Evidence&) -> Value { return kFrictionStep; }},
+      {"texture", "Texture, error of its vibration", "N",
+       "the held force from 40 to 400 Hz: its RMS, less the reference's; worst finger", textureError, false, none},
       {"proxy", "Proxy, RMS error", "mm", "distance of the proxy from the reference's, while both touch; worst finger",
-       [](const Evidence& s, const Evidence& r) { return fingers(s, r, proxyError, true, &Sum::rms); }, false,
+       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, proxyError, &Sum::rms); }, false,
        apertureNoticeable},
       {"position", "Object position, RMS error", "mm", "distance of the free bodies' origins from the reference's",
        [](const Evidence& s, const Evidence& r) { return bodies(s, r, positionError); }, false, apertureNoticeable},

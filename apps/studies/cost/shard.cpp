@@ -5,11 +5,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "apps/common/atomic_file.h"
-#include "apps/common/cluster/shard_set.h"
-#include "apps/common/file_text.h"
+#include "apps/common/cluster/shard_file.h"
 #include "apps/common/machine.h"
-#include "apps/common/version.h"
 #include "apps/studies/cost/driver.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/run_store.h"
@@ -23,42 +20,42 @@ using nlohmann::json;
 
 enum ShardCode { kNoShard = 810, kOfAnother = 811 };
 
-constexpr const char *kFile = "/shard.json", *kRuns = "/runs";
-constexpr int kFormat = 1;
+constexpr const char* kRuns = "/runs";
 constexpr const char* kMixedHelp = "--mixed takes the errors of all shards and measures all costs on this machine";
 
+/// A finished shard.
+struct Part {
+  std::string folder;
+  Request request;                                           ///< of the study; its paths are absolute
+  std::string work;                                          ///< workOf()
+  bool instructions = false;                                 ///< they were counted
+  std::vector<std::pair<std::string, std::string>> machine;  ///< machineFacts()
+  std::size_t files = 0;                                     ///< that hold its runs
+};
+
 json toJson(const Request& request) {
-  return {{"input", request.input},        {"rig", request.rig},         {"sets", request.sets},
-          {"knobs", request.factors},      {"metrics", request.metrics}, {"for", request.duration},
-          {"seed", request.seed},          {"quick", request.quick},     {"shard", request.shard->index},
-          {"shards", request.shard->count}};
+  return {{"input", request.input},     {"rig", request.rig},      {"sets", request.sets}, {"knobs", request.factors},
+          {"metrics", request.metrics}, {"for", request.duration}, {"seed", request.seed}, {"quick", request.quick}};
 }
 
-Request requestFrom(const json& stored) {
-  Request request;
-  request.input = stored.at("input");
-  request.rig = stored.at("rig");
-  request.sets = stored.at("sets");
-  request.factors = stored.at("knobs");
-  request.metrics = stored.at("metrics");
-  request.duration = stored.at("for");
-  request.seed = stored.at("seed");
-  request.quick = stored.at("quick");
-  request.shard = {stored.at("shard"), stored.at("shards")};
-  return request;
-}
-
-ShardFile shardFileFrom(const json& stored) {
-  if (stored.at("format") != kFormat) throw std::runtime_error("another format");
-  ShardFile file{.request = requestFrom(stored.at("request")),
-                 .study = stored.at("study"),
-                 .version = stored.at("version"),
-                 .instructions = stored.at("instructions"),
-                 .machine = stored.at("machine"),
-                 .files = stored.at("files")};
-  const Shard& shard = *file.request.shard;
-  if (shard.count < 1 || shard.index < 1 || shard.index > shard.count) throw std::runtime_error("another shard");
-  return file;
+Part partFrom(const cluster::ShardFile& file) {
+  const json &content = file.content, &stored = content.at("request");
+  Part part;
+  part.folder = file.head.folder;
+  part.work = file.head.work;
+  part.instructions = content.at("instructions");
+  part.machine = content.at("machine");
+  part.files = content.at("files");
+  part.request.input = stored.at("input");
+  part.request.rig = stored.at("rig");
+  part.request.sets = stored.at("sets");
+  part.request.factors = stored.at("knobs");
+  part.request.metrics = stored.at("metrics");
+  part.request.duration = stored.at("for");
+  part.request.seed = stored.at("seed");
+  part.request.quick = stored.at("quick");
+  part.request.shard = file.head.shard;
+  return part;
 }
 
 std::size_t filesIn(const std::string& folder) {
@@ -87,8 +84,9 @@ class Merge {
 
   Merged run() {
     Merged merged;
-    if (!readAll() || !belongTogether()) return merged;
-    Request whole = shards_.front().file.request;
+    if (!readAll()) return merged;
+    const Part& first = shards_.front();
+    Request whole = first.request;
     allowFoldersOf(whole);
     whole.shard.reset();
     whole.out = request_.out;
@@ -96,72 +94,49 @@ class Merge {
     merged.study = planStudy(whole, diagnostics_);
     if (diagnostics_.hasErrors()) return merged;
     identity_ = identityOf(merged.study);
-    if (identity_.study != shards_.front().file.study)
+    if (workOf(merged.study, first.instructions) != first.work)
       return refuse(kOfAnother, {whole.input, 0, 0}, "the study is not as it was when its shards were made",
                     "undo the change, or make the shards again"),
              merged;
-    for (const Read& shard : shards_) {
+    for (const Part& shard : shards_) {
       if (fs::weakly_canonical(shard.folder) != fs::weakly_canonical(merged.study.folder)) continue;
       refuse(kOfAnother, {"--out " + merged.study.folder, 0, 0},
-             "is the folder of shard " + textOf(*shard.file.request.shard), "choose another with --out");
+             "is the folder of shard " + textOf(*shard.request.shard), "choose another with --out");
     }
     checkRuns(merged.study);
     if (diagnostics_.hasErrors()) return merged;
-    merged.instructions = shards_.front().file.instructions;
-    if (!request_.mixed) merged.machine = shards_.front().file.machine;
+    merged.instructions = first.instructions;
+    if (!request_.mixed) merged.machine = first.machine;
     checkFolder(merged.study.folder, diagnostics_);
     if (!diagnostics_.hasErrors()) copyRuns(merged.study.folder + kRuns);
     return merged;
   }
 
  private:
-  struct Read {
-    std::string folder;
-    ShardFile file;
-  };
-
   void refuse(int code, const SourceLocation& where, const std::string& what, const std::string& help) {
     diagnostics_.error(code, where, what, help);
   }
 
   bool readAll() {
-    for (const std::string& folder : request_.folders) {
-      const std::string file = folder + kFile;
-      if (!fs::exists(file)) {
-        refuse(kNoShard, {folder, 0, 0}, "holds no finished shard: there is no shard.json",
-               fs::exists(folder + kRuns) ? "it was stopped; repeat its command with --resume"
-                                          : "name the folders that presa cost --shard I/N --out FOLDER wrote");
-        continue;
-      }
+    for (const cluster::ShardFile& file : cluster::readShards(request_.folders, "presa cost STUDY", diagnostics_)) {
       try {
-        shards_.push_back({folder, shardFileFrom(json::parse(contentsOf(file)))});
+        shards_.push_back(partFrom(file));
       } catch (const std::exception&) {
-        refuse(kNoShard, {file, 0, 0}, "cannot be read as a shard: it is damaged or of another release",
-               "make the shard again");
+        cluster::tellDamaged(file.head.folder, diagnostics_);
       }
     }
     return !diagnostics_.hasErrors();
   }
 
-  bool belongTogether() {
-    std::vector<cluster::ShardHead> heads;
-    for (const Read& shard : shards_)
-      heads.push_back({shard.folder, *shard.file.request.shard, shard.file.version,
-                       std::to_string(shard.file.study) + (shard.file.instructions ? " counted" : "")});
-    const Read& first = shards_.front();
-    return cluster::areWhole(
-        heads, [&](const Shard& shard) { return commandFor(first.file.request, shard); }, diagnostics_);
-  }
-
-  RunStore storeOf(const Read& shard) const { return {shard.folder + kRuns, identity_.common}; }
+  RunStore storeOf(const Part& shard) const { return {shard.folder + kRuns, identity_.common}; }
 
   /// Every run of every shard is there and can be read, and all costs come from one kind of machine.
   void checkRuns(const Study& study) {
     std::map<std::string, std::string> hardware;  // of costs, with a folder that has it
-    for (const Read& shard : shards_) {
-      const Shard& its = *shard.file.request.shard;
+    for (const Part& shard : shards_) {
+      const Shard& its = *shard.request.shard;
       try {
-        if (filesIn(shard.folder) != shard.file.files) throw std::runtime_error("a file is lost");
+        if (filesIn(shard.folder) != shard.files) throw std::runtime_error("a file is lost");
         for (std::size_t i = 0; i < study.settings.size(); ++i) {
           const Setting& setting = study.settings[i];
           if (!its.holds(i) || !setting.impossible.empty()) continue;
@@ -175,7 +150,7 @@ class Merge {
       } catch (const std::exception&) {
         refuse(kNoShard, {shard.folder, 0, 0},
                "is damaged: a run of shard " + textOf(its) + " is lost or cannot be read",
-               "make it again: " + commandFor(shard.file.request, its));
+               "make it again: " + commandFor(shard.request, its));
       }
     }
     if (request_.mixed || hardware.size() < 2) return;
@@ -187,7 +162,7 @@ class Merge {
 
   void copyRuns(const std::string& to) {
     fs::create_directories(to);  // a merge that was stopped goes on with what it has measured
-    for (const Read& shard : shards_) {
+    for (const Part& shard : shards_) {
       for (const auto& entry : fs::directory_iterator(shard.folder + kRuns)) {
         const std::string name = entry.path().filename().string();
         const bool cost = name.find(".time") != std::string::npos;
@@ -199,40 +174,25 @@ class Merge {
 
   const MergeRequest& request_;
   Diagnostics& diagnostics_;
-  std::vector<Read> shards_;
+  std::vector<Part> shards_;
   Identity identity_;
 };
 
 }  // namespace
 
-bool holdsShard(const std::string& folder, const Shard& shard, std::uint64_t study, bool instructions) {
-  // listing the folder shows what another machine has just written there; asking for the file may not
-  std::error_code none;
-  bool listed = false;
-  for (const auto& entry : fs::directory_iterator(folder, none)) listed = listed || entry.path() == folder + kFile;
-  if (!listed) return false;
-  try {
-    const ShardFile file = shardFileFrom(json::parse(contentsOf(folder + kFile)));
-    const Shard& its = *file.request.shard;
-    return its.index == shard.index && its.count == shard.count && file.study == study &&
-           file.instructions == instructions && file.version == versionText();
-  } catch (const std::exception&) {
-    return false;
-  }
+std::string workOf(const Study& study, bool instructions) {
+  return std::to_string(identityOf(study).study) + (instructions ? " counted" : "");
 }
 
-void writeShardFile(const Study& study, const Request& request, bool instructions) {
+void writeShard(const Study& study, const Request& request, bool instructions) {
   Request absolute = request;  // the merge may run in another folder
   absolute.input = fs::absolute(request.input).lexically_normal().string();
   if (!request.rig.empty()) absolute.rig = fs::absolute(request.rig).lexically_normal().string();
-  const json all{{"format", kFormat},
-                 {"version", versionText()},
-                 {"study", identityOf(study).study},
-                 {"instructions", instructions},
-                 {"machine", machineFacts()},
-                 {"files", filesIn(study.folder)},
-                 {"request", toJson(absolute)}};
-  writeFileAtomically(study.folder + kFile, all.dump(1) + "\n");
+  cluster::writeShardFile(study.folder, *request.shard, workOf(study, instructions),
+                          {{"instructions", instructions},
+                           {"machine", machineFacts()},
+                           {"files", filesIn(study.folder)},
+                           {"request", toJson(absolute)}});
 }
 
 Merged mergeShards(const MergeRequest& request, Diagnostics& diagnostics) { return Merge(request, diagnostics).run(); }

@@ -8,21 +8,11 @@
 
 namespace presa::cost {
 
-/// What `presa cost STUDY --shard I/N` leaves in its folder beside the runs, for the merge.
-struct ShardFile {
-  Request request;                                           ///< of the study; its paths are absolute
-  std::uint64_t study = 0;                                   ///< Identity::study
-  std::string version;                                       ///< of Presa
-  bool instructions = false;                                 ///< instructions were counted
-  std::vector<std::pair<std::string, std::string>> machine;  ///< machineFacts()
-  std::size_t files = 0;                                     ///< that hold its runs
-};
+/// The work that a shard of this study is a part of, for cluster::holdsShard(). `instructions`: they are counted.
+std::string workOf(const Study& study, bool instructions);
 
-/// Whether the folder holds this finished shard of the study (Identity::study).
-bool holdsShard(const std::string& folder, const Shard& shard, std::uint64_t study, bool instructions);
-
-/// Writes the file of a shard whose runs are done; a folder without it holds no finished shard.
-void writeShardFile(const Study& study, const Request& request, bool instructions);
+/// Writes the file of a shard whose runs are done, in the study's folder; a folder without it holds no finished shard.
+void writeShard(const Study& study, const Request& request, bool instructions);
 
 struct MergeRequest {
   std::vector<std::string> folders;  ///< of the shards

@@ -93,28 +93,25 @@ void checkMetric(const Element& element, const std::string& attribute, Diagnosti
 
 void checkRule(const Element& element, const std::vector<std::vector<Factor>>& grids, Diagnostics& diagnostics) {
   checkMetric(element, "metric", diagnostics);
-  std::vector<std::string> names;
-  const Factor* found = nullptr;
+  if (!element.hasAttribute("knob")) return;
+  const std::string knob = element.attribute("knob");
+  std::vector<std::string> names, values;  // a knob may stand in several grids
   for (const std::vector<Factor>& grid : grids) {
     for (const Factor& factor : grid) {
       names.push_back(factor.name);
-      if (factor.name == element.attribute("knob")) found = &factor;
+      if (factor.name != knob) continue;
+      for (const FactorValue& value : factor.values) values.push_back(value.name);
     }
   }
-  if (!element.hasAttribute("knob")) return;
-  if (found == nullptr) {
-    diagnostics.error(
-        806, element.where("knob"),
-        "this study has no knob " + quote(element.attribute("knob")) + didYouMean(element.attribute("knob"), names));
+  if (values.empty()) {
+    diagnostics.error(806, element.where("knob"), "this study has no knob " + quote(knob) + didYouMean(knob, names));
     return;
   }
   for (const char* side : {"a", "b"}) {
-    std::vector<std::string> values;
-    for (const FactorValue& value : found->values) values.push_back(value.name);
     const std::string wanted = element.attribute(side);
     if (element.hasAttribute(side) && std::find(values.begin(), values.end(), wanted) == values.end())
       diagnostics.error(806, element.where(side),
-                        "knob " + quote(found->name) + " has no value " + quote(wanted) + didYouMean(wanted, values));
+                        "knob " + quote(knob) + " has no value " + quote(wanted) + didYouMean(wanted, values));
   }
 }
 
@@ -158,10 +155,10 @@ std::vector<std::vector<Factor>> readStudyFile(const std::string& file, const Re
   for (const Element& reference : root.children("reference")) {
     study.reference_kind = kindOf(reference);
     for (const Element& level : reference.children("level")) study.reference.push_back(setsIn(level));
-    if (study.reference_kind == Study::Reference::kRefined && study.reference.size() < 2)
-      diagnostics.error(807, reference.where(),
-                        "a reference needs at least two levels, found " + std::to_string(study.reference.size()),
-                        "the difference between two levels shows how well the reference is known");
+    if (study.reference_kind == Study::Reference::kRefined && study.reference.size() == 1)
+      diagnostics.error(807, reference.where(), "a reference needs at least two levels, found one",
+                        "the difference between two levels shows how well the reference is known; without any, the "
+                        "rates are raised to 5000 Hz and beyond");
   }
   Diagnostics scene_findings;  // ignored: reported by planStudy()
   const Loaded base = loadWorld(study.inputs, {}, scene_findings);

@@ -1,11 +1,11 @@
 // `presa cost submit`: the shards of a study as a job array of a cluster, merged when all are there.
 #include <cstdio>
 
+#include "apps/common/cluster/shard_file.h"
 #include "apps/common/cluster/submission.h"
 #include "apps/common/exit_status.h"
 #include "apps/studies/cost/apply.h"
 #include "apps/studies/cost/driver.h"
-#include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/shard.h"
 #include "apps/studies/cost/shard_commands.h"
 #include "apps/studies/cost/study_arguments.h"
@@ -21,16 +21,15 @@ struct SubmitArguments {
   bool mixed = false;
 };
 
-cluster::ShardedWork workOf(const SubmitArguments& a, const Study& study) {
+cluster::ShardedWork shardedWork(const SubmitArguments& a, const Study& study) {
   std::vector<std::string> words = wordsOf(*a.study);
   words.emplace_back("--resume");
   return {.command = kCommand,
           .name = "presa_cost_" + study.name,
           .folder = study.folder + "/shards",
           .words = std::move(words),
-          .is_done = [identity = identityOf(study).study, counted = a.study->instructions](const std::string& folder,
-                                                                                           const Shard& shard) {
-            return holdsShard(folder, shard, identity, counted);
+          .is_done = [work = workOf(study, a.study->instructions)](const std::string& folder, const Shard& shard) {
+            return cluster::holdsShard(folder, shard, work);
           }};
 }
 
@@ -45,7 +44,7 @@ int submit(const SubmitArguments& a) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
-  const cluster::ShardedWork work = workOf(a, study);
+  const cluster::ShardedWork work = shardedWork(a, study);
   if (const auto status = cluster::submitShards(work, a.cluster)) return *status;
   return merge({.folders = cluster::shardFolders(work, a.cluster), .out = study.folder, .mixed = a.mixed},
                a.study->jobs, a.study->apply);

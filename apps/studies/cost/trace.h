@@ -10,10 +10,14 @@ namespace presa::cost {
 
 /// State of a finger and of a free body at one instant of the common time grid, as plain numbers.
 struct FingerSample {
-  double touching = 0;          ///< 1 or 0
-  double normal_force = 0;      ///< >= 0 [N]
-  double force[3] = {0, 0, 0};  ///< commanded to the device, W [N]
-  double proxy[3] = {0, 0, 0};  ///< position of the proxy, W [m]
+  double touching = 0;           ///< 1 or 0
+  double normal_force = 0;       ///< >= 0 [N]
+  double force[3] = {0, 0, 0};   ///< commanded to the device, W [N]
+  double proxy[3] = {0, 0, 0};   ///< position of the proxy, W [m]
+  double torque[3] = {0, 0, 0};  ///< commanded to the device, about the finger, W [N m]
+  double stretch = 0;            ///< distance from finger to proxy [m]
+  double traction = 0;           ///< tangential over normal force of the contact [-]
+  double slipping = 0;           ///< 1 or 0
 };
 /// Pose X_WB of a free body at such an instant.
 struct BodySample {
@@ -35,7 +39,7 @@ struct Trace {
   std::vector<std::array<float, 3>> held;  ///< `fingers` entries per tick, W [N]
 
   /// Version of the file format; part of the hash that decides whether a stored run is reused.
-  static constexpr const char* kFormat = "PRCOST03";
+  static constexpr const char* kFormat = "PRCOST04";
   void save(const std::string& file) const;    ///< throws when the file cannot be written
   static Trace load(const std::string& file);  ///< throws std::runtime_error
 };

@@ -106,6 +106,10 @@ class Watcher {
       out.normal_force = contact.normal_force;
       keep(sample.command.f_H_W[f], out.force);
       keep(contact.p_WP, out.proxy);
+      keep(sample.command.t_H_W[f], out.torque);
+      out.stretch = (contact.p_WP - contact.p_WH).norm();
+      if (contact.normal_force > 0) out.traction = contact.tangential_force_W.norm() / contact.normal_force;
+      out.slipping = contact.mode == ContactMode::kSlip ? 1 : 0;
       finite_ = finite_ && sample.command.f_H_W[f].allFinite() && contact.p_WP.allFinite();
     }
     for (const std::size_t i : free_) {
