@@ -5,6 +5,7 @@
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/terminal/text.h"
 #include "apps/studies/cost/analysis.h"
+#include "apps/studies/cost/knob_plots.h"
 #include "apps/studies/cost/report_tables.h"
 #include "apps/studies/cost/verdict.h"
 #include "apps/studies/cost/work_plots.h"
@@ -80,6 +81,7 @@ std::string reportHtml(const Result& result) {
   out += folded("How far the default is from the front", frontDistances(result));
   out += folded("The cheapest setting that nobody feels", choice(result));
   out += folded("Other errors over cost", otherPlots(result));
+  out += folded("Error over each knob", knobPlots(result));
   out += folded("What one knob buys", gains(result));
   out += folded("All settings", settings(result));
   out += folded("Decimated meshes", meshes(result));
