@@ -1,4 +1,5 @@
 #pragma once
+#define H5_USE_110_API  // of Debian 12; later releases have it, too
 #include <hdf5.h>
 
 #include <mutex>
