@@ -205,7 +205,8 @@ void addBusSet(Command app, int& status) {
   auto a = std::make_shared<ParameterArguments>();
   auto bus = std::make_shared<std::optional<BusSettings>>();
   Command command = app.command("set", "Set parameters of a run that takes commands");
-  command.option("NAME=VALUE", a->words, "a parameter and its new value, as presa bus list shows them").required();
+  command.option("SETTING", a->words, "NAME=VALUE: a parameter and its new value, as presa bus list shows them")
+      .required();
   command.option("--run", a->run, "id of the run, where several take commands");
   addBusOptions(command, *bus, "the network that the run is on");
   command.option("--wait", a->wait, "seconds to wait for the run, and for each answer").nonNegative().showDefault();
