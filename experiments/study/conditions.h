@@ -10,18 +10,20 @@
 
 namespace presa {
 
-/// Late ticks of a group, drawn at random. Ticks that were due meanwhile run with the late one, as in real time.
+/// A group that wakes up late now and then, at random. The ticks that were due meanwhile run at once, or are skipped after
+/// Executor::kCatchUpLimit, as in real time.
 struct Jitter {
-  double share = 0;  ///< of the ticks, 0 to 1
-  int periods = 2;   ///< from the tick before to a late one; 1: none is late
+  double share = 0;  ///< of the times that it wakes up, 0 to 1
+  int periods = 2;   ///< from the time before to a late one; 1: none is late
   bool operator==(const Jitter&) const = default;
 };
 
 /// What no scene describes: a machine that is late, and a line that delays.
 struct Conditions {
-  double latency = 0;          ///< from a command to its force on the finger; in whole haptic periods, rounded [s]
-  Jitter haptic{0, 5};         ///< the lectures' (apps/studies/lectures)
-  Jitter collision, dynamics;  ///< later than after two periods, the forces fade (framework/scene/ages.h)
+  double latency = 0;   ///< from a command to its force on the finger; in whole haptic periods, rounded [s]
+  Jitter haptic{0, 5};  ///< the lectures' (apps/studies/lectures)
+  Jitter collision,
+      dynamics;  ///< data older than max(20 ms, two periods) make the forces fade (framework/scene/ages.h)
   bool operator==(const Conditions&) const = default;
 };
 

@@ -60,8 +60,9 @@ void EnergyLedger::observe(const HapticSample& sample) noexcept {
   ticked_ = true;
   if (sample.objects == nullptr || (stepped_ && sample.objects_version == version_)) return;
   const ObjectState& objects = *sample.objects;
-  // when observation starts in mid-run, the first state only supplies the velocities
-  const bool known = stepped_ || !(objects.time_begin > 0);
+  // when observation starts in mid-run, or after steps that ran at once, the state only supplies the velocities
+  const bool next = stepped_ && sample.objects_version == version_ + 1;
+  const bool known = next || (!stepped_ && !(objects.time_begin > 0));
   if (known && std::abs(objects.time_begin - sample.tick.time) < 0.5 * sample.tick.period)
     close(bodies(objects) + springs);
   std::copy_n(objects.bodies.begin(), last_.size(), last_.begin());

@@ -11,11 +11,16 @@ class StudyRun::Probe final : public HapticObserver {
   void observe(const HapticSample& sample) noexcept override {
     if (!observer) return;
     if (!line) return observer(sample);
-    const ForceCommand& felt = line->pass(sample.command);
+    for (; passed < sample.tick.index; ++passed) line->pass(last);  // skipped ticks
+    last = sample.command;
+    const ForceCommand& felt = line->pass(last);
+    ++passed;
     observer({sample.tick, sample.device, sample.contact, felt, sample.objects, sample.objects_version});
   }
   Observer observer;
   std::optional<DelayLine<ForceCommand>> line;  // with a latency
+  ForceCommand last;
+  std::uint64_t passed = 0;  // ticks whose command is on the line
 };
 
 StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& more) {
@@ -39,7 +44,8 @@ StudyRun::StudyRun(const StudySpec& spec, DeviceList devices, const MakeModule& 
   if (more) session_options.more.push_back(more(loaded.world));
   auto probe = std::make_unique<Probe>();
   probe_ = probe.get();
-  if (latency > 0) probe_->line.emplace(latency, ForceCommand(loaded.world->scene.devices.size()));
+  probe_->last = ForceCommand(loaded.world->scene.devices.size());
+  if (latency > 0) probe_->line.emplace(latency, probe_->last);
   session_options.more.push_back(std::move(probe));
   run_.emplace(std::move(loaded), control_, std::move(session_options));
   if (LateTicks late(spec.conditions, spec.seed); late.any())

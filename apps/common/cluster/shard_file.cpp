@@ -20,8 +20,9 @@ constexpr int kFormat = 2;
 ShardFile parsed(const std::string& folder) {
   json all = json::parse(contentsOf(folder + kFile));
   if (all.at("format") != kFormat) throw std::runtime_error("another format");
-  return {{folder, {all.at("shard"), all.at("shards")}, all.at("version"), all.at("work")},
-          std::move(all.at("content"))};
+  const Shard shard{all.at("shard"), all.at("shards")};
+  if (!shardTrouble(textOf(shard)).empty()) throw std::runtime_error("another shard");
+  return {{folder, shard, all.at("version"), all.at("work")}, std::move(all.at("content"))};
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ void tellDamaged(const std::string& folder, Diagnostics& diagnostics) {
 }
 
 std::vector<ShardFile> readShards(const std::vector<std::string>& folders, const std::string& command,
-                                  Diagnostics& diagnostics) {
+                                  Diagnostics& diagnostics, const std::string& resume) {
   const std::size_t before = diagnostics.errorCount();
   std::vector<ShardFile> shards;
   std::vector<ShardHead> heads;
@@ -60,7 +61,8 @@ std::vector<ShardFile> readShards(const std::vector<std::string>& folders, const
     if (!std::filesystem::exists(folder + kFile)) {
       diagnostics.error(kNoShard, {folder, 0, 0}, "holds no finished shard: there is no shard.json",
                         "name the folders that " + command +
-                            " --shard I/N --out FOLDER wrote; repeat the command of one that was stopped");
+                            " --shard I/N --out FOLDER wrote; repeat the command of one that was stopped" +
+                            (resume.empty() ? "" : ", with " + resume));
       continue;
     }
     try {

@@ -20,11 +20,11 @@ void writeShardFile(const std::string& folder, const Shard& shard, const std::st
 /// Whether the folder holds that finished shard, of this release.
 bool holdsShard(const std::string& folder, const Shard& shard, const std::string& work);
 
-/// The shards of one piece of work, each once, by rising index. `command`, such as "presa stability", made them. Errors,
-/// all at once: E810 no shard or a damaged one, E811 shards that do not belong together, E812 a shard is missing; then
-/// the result is unusable.
+/// The shards of one piece of work, each once, by rising index. `command`, such as "presa stability", made them;
+/// `resume`: the option with which one that was stopped goes on, if there is one. Errors, all at once: E810 no shard or a
+/// damaged one, E811 shards that do not belong together, E812 a shard is missing; then the result is unusable.
 std::vector<ShardFile> readShards(const std::vector<std::string>& folders, const std::string& command,
-                                  Diagnostics& diagnostics);
+                                  Diagnostics& diagnostics, const std::string& resume = {});
 
 /// E810: the shard in a folder cannot be read.
 void tellDamaged(const std::string& folder, Diagnostics& diagnostics);

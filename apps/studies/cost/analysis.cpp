@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/common/terminal/text.h"
+#include "apps/studies/cost/condition_factor.h"
 
 namespace presa::cost {
 namespace {
@@ -12,13 +13,6 @@ namespace {
 /// True when the outcome has an error in this metric and a cost.
 bool shown(const Outcome& outcome, const std::string& metric) {
   return outcome.failure.empty() && outcome.timed() && outcome.error.contains(metric);
-}
-
-std::optional<double> numeric(const std::string& text) {
-  double value = 0;
-  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
-  return value;
 }
 
 /// The only factor in which two settings differ; null when they differ in none or several.
@@ -41,6 +35,12 @@ std::string valueOf(const Setting& setting, const std::string& factor) {
 
 }  // namespace
 
+std::optional<double> numberIn(const std::string& text) {
+  double value = 0;
+  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
 std::string setOptions(const std::vector<std::string>& sets) {
   std::string out;
   for (const std::string& set : sets) {
@@ -62,7 +62,7 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
   const double known = std::max(kRounding, result.resolution(metric) / 10);
   const Spread cost = usual.perSecond();
   for (const Outcome& other : result.outcomes) {
-    if (!shown(other, metric)) continue;
+    if (!shown(other, metric) || hasConditions(other.setting)) continue;
     const std::string* factor = onlyDifference(usual.setting, other.setting);
     if (factor == nullptr || !(usual.error.at(metric) > known) || !(cost.median > 0)) continue;
     const Spread changed = other.perSecond();
@@ -94,7 +94,7 @@ std::optional<double> observedOrder(const Result& result, const std::string& met
   for (const Outcome& outcome : result.outcomes) {
     const std::string* difference = onlyDifference(result.outcomes.front().setting, outcome.setting);
     const bool along = &outcome == &result.outcomes.front() || (difference != nullptr && *difference == factor);
-    const std::optional<double> value = numeric(valueOf(outcome.setting, factor));
+    const std::optional<double> value = numberIn(valueOf(outcome.setting, factor));
     const auto error = outcome.error.find(metric);
     if (!along || !value || !(*value > 0) || !outcome.failure.empty() || error == outcome.error.end()) continue;
     if (!(error->second > 0)) continue;

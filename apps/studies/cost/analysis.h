@@ -16,6 +16,7 @@ struct FactorGain {
   /// Extrapolated error ratio for twice the cost along this factor; no value when the cost does not change measurably.
   std::optional<double> per_double_cost;
 };
+/// Of every factor but conditions.
 std::vector<FactorGain> factorGains(const Result& result, const std::string& metric);
 
 /// Observed order of convergence: minus the least-squares slope of log(error) over log(value) of a numeric factor, with
@@ -27,6 +28,9 @@ std::vector<std::string> sentences(const Result& result);
 
 /// What beats the default, and by how much, such as "no dearer at 1/2.21 of the error is coupling explicit".
 std::string whatBeats(const Result& result, const FrontDistance& distance);
+
+/// The number that a text is; no value for other texts.
+std::optional<double> numberIn(const std::string& text);
 
 /// A title within a sentence: its first letter small.
 std::string lowered(std::string title);

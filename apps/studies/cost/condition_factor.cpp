@@ -57,8 +57,8 @@ void read(const std::string& set, Conditions& conditions, Diagnostics& diagnosti
     diagnostics.error(801, where, "there is no condition " + quote(path) + didYouMean(path, conditionPaths()),
                       "conditions of a run: " + list);
   } else if (!readJitter(text, conditions.*known->jitter)) {
-    diagnostics.error(802, where, "jitter is the share of late ticks from 0 to 1, found " + quote(text),
-                      "for example 0.1, or 0.1:3: they come after 3 periods (1 to 100; default 2, haptic 5)");
+    diagnostics.error(802, where, "jitter is a share of late wake-ups from 0 to 1, found " + quote(text),
+                      "for example 0.1, or 0.1:3: after 3 periods instead of one (1 to 100; default 2, haptic 5)");
   }
 }
 
@@ -75,6 +75,15 @@ Conditions takeConditions(std::vector<std::string>& sets, Diagnostics& diagnosti
   }
   std::erase_if(sets, isCondition);
   return conditions;
+}
+
+void refuseConditions(std::vector<std::string>& sets, const SourceLocation& where, Diagnostics& diagnostics) {
+  for (const std::string& set : sets) {
+    if (isCondition(set))
+      diagnostics.error(802, where, quote(set) + " is a condition of the run, and no value of the scene",
+                        "conditions are knobs, beside a run without: --knob latency=0,0.01");
+  }
+  std::erase_if(sets, isCondition);
 }
 
 bool hasConditions(const Setting& setting) {

@@ -13,6 +13,9 @@ namespace presa::cost {
 /// `diagnostics`.
 Conditions takeConditions(std::vector<std::string>& sets, Diagnostics& diagnostics);
 
+/// E802 for a condition among the sets of all settings; it is taken out.
+void refuseConditions(std::vector<std::string>& sets, const SourceLocation& where, Diagnostics& diagnostics);
+
 /// Whether the setting runs under other conditions than the scene alone.
 bool hasConditions(const Setting& setting);
 

@@ -72,6 +72,9 @@ void addCost(Command app, int& status) {
       "--resume).\n"
       "A setting beats the default if it is no dearer (within 5 %), as accurate in every judged error, and 1.3 times\n"
       "better in one or in cost, or more accurate in all. Judged are the errors with a <front> in the study.\n"
+      "latency [s] delays each command on its way to the finger; haptic_jitter, collision_jitter and dynamics_jitter\n"
+      "SHARE[:PERIODS] make a thread late in a share of the times that it wakes up. No such setting beats the "
+      "default.\n"
       "Example:  presa cost config/scenes/cube.xml --knob dynamics_rate=100,200,500 --knob coupling=soft,explicit");
   cost::addMerge(command, other, status);
   cost::addSubmit(command, other, status);

@@ -45,7 +45,7 @@ constexpr KnownFactor kFactors[] = {
     {"latency", "run/latency", Need::kFingers},
     {"haptic_jitter", "run/haptic_jitter", Need::kFingers},
     {"collision_jitter", "run/collision_jitter", Need::kMeshes},
-    {"dynamics_jitter", "run/dynamics_jitter", Need::kMotion},
+    {"dynamics_jitter", "run/dynamics_jitter", Need::kHeldMotion},
 };
 
 constexpr const char *kMeshFactor = "haptic_mesh", *kMeshFolder = "/meshes/";  // of a study's own folder

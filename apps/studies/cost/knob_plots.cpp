@@ -1,7 +1,6 @@
 #include "apps/studies/cost/knob_plots.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 
@@ -16,14 +15,6 @@ namespace {
 
 constexpr std::size_t kFewest = 3;  // points of a plot
 
-/// The value of the knob, a positive number; no value for others.
-std::optional<double> positive(const std::string& text) {
-  double value = 0;
-  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = status == std::errc{} && rest == text.data() + text.size();
-  return whole && value > 0 ? std::optional(value) : std::nullopt;
-}
-
 /// The settings that differ from the default in this knob at most, by its value.
 std::map<double, const Outcome*> along(const Result& result, const std::string& knob) {
   std::map<double, const Outcome*> line;
@@ -34,11 +25,11 @@ std::map<double, const Outcome*> along(const Result& result, const std::string& 
     for (std::size_t k = 0; k < usual.size(); ++k) {
       const auto& [name, choice] = outcome.setting.choices[k];
       if (name == knob)
-        value = positive(choice);
+        value = numberIn(choice);
       else
         alone = alone && choice == usual[k].second;
     }
-    if (alone && value) line.emplace(*value, &outcome);
+    if (alone && value && *value > 0) line.emplace(*value, &outcome);
   }
   return line;
 }
@@ -69,7 +60,10 @@ std::string figureOf(const Result& result, const Metric& metric, const std::stri
   const auto error = usual.error.find(metric.name);
   if (!drawn && error != usual.error.end() && error->second > 0)
     figure.y_levels.push_back({error->second, "default", ""});
-  if (const auto limit = result.reference.noticeable.find(metric.name); limit != result.reference.noticeable.end())
+  if (figure.front.size() < kFewest) return {};
+  const auto [low, high] = std::ranges::minmax(figure.front, {}, &svg::Point::y);
+  const auto limit = result.reference.noticeable.find(metric.name);
+  if (limit != result.reference.noticeable.end() && limit->second < 10 * high.y && limit->second > low.y / 10)
     figure.y_levels.push_back({limit->second, "just noticeable", ""});
   return "<figure><h3>" + svg::escape(knob) + "</h3>\n" + svg::render(figure) + "</figure>\n";
 }
@@ -83,7 +77,7 @@ std::string knobPlots(const Result& result) {
   std::string figures;
   for (const Factor& factor : result.study.factors) {
     const std::map<double, const Outcome*> line = along(result, factor.name);
-    if (line.size() >= kFewest) figures += figureOf(result, metric, factor.name, line);
+    figures += figureOf(result, metric, factor.name, line);
   }
   if (figures.empty()) return {};
   return "<p class=\"caption\">" + svg::escape(metric.title) +

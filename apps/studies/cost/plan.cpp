@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/metrics.h"
 #include "framework/input/folders.h"
@@ -105,6 +106,7 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   if (!request.metrics.empty()) study.metrics = request.metrics;
   checkMetrics(study.metrics, diagnostics);
 
+  refuseConditions(study.inputs.sets, {study.file.empty() ? "--set" : study.file, 0, 0}, diagnostics);
   const Loaded base = loadWorld(study.inputs, {}, diagnostics);
   if (!base.world) return study;
   const Scene& scene = base.world->scene;

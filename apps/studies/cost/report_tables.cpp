@@ -98,7 +98,8 @@ std::string frontDistances(const Result& result) {
                                                    : "<span class=\"fault\">beyond 1.3 ×</span>"});
   }
   if (rows.empty()) return {};
-  return "<p class=\"caption\">Among the settings of its own engine. Costs within 5 % count as the same.</p>\n" +
+  return "<p class=\"caption\">Among the settings of its own engine, without latency and late ticks. Costs within 5 % "
+         "count as the same.</p>\n" +
          table({"error", "cost ×", "against the cheapest as accurate", "error ×", "against the most accurate as cheap",
                 "the default is"},
                rows);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -32,12 +31,6 @@ struct Ratio {
 std::string asFactor(const Ratio& ratio) {
   if (ratio.count < 2) return format("%.3g", ratio.mean());
   return format("%.3g (%.3g to %.3g over %d pairs)", ratio.mean(), ratio.low, ratio.high, ratio.count);
-}
-
-std::optional<double> number(const std::string& text) {
-  double value = 0;
-  const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 /// Outcomes grouped by the values of all factors but one, then by that factor's value.
@@ -100,7 +93,7 @@ std::string halving(const Result& result, const SentenceRule& rule) {
   for (const auto& [rest, line] : linesAlong(result, rule.factor)) {
     std::vector<std::pair<double, const Outcome*>> values;
     for (const auto& [value, outcome] : line) {
-      const auto x = number(value);
+      const auto x = numberIn(value);
       if (x && *x > 0 && has(*outcome, rule.metric) && outcome->timed() && outcome->error.at(rule.metric) > 0)
         values.emplace_back(*x, outcome);
     }

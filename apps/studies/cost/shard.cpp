@@ -94,7 +94,7 @@ class Merge {
     merged.study = planStudy(whole, diagnostics_);
     if (diagnostics_.hasErrors()) return merged;
     identity_ = identityOf(merged.study);
-    if (workOf(merged.study, first.instructions) != first.work)
+    if (workOf(identity_.study, first.instructions) != first.work)
       return refuse(kOfAnother, {whole.input, 0, 0}, "the study is not as it was when its shards were made",
                     "undo the change, or make the shards again"),
              merged;
@@ -118,7 +118,8 @@ class Merge {
   }
 
   bool readAll() {
-    for (const cluster::ShardFile& file : cluster::readShards(request_.folders, "presa cost STUDY", diagnostics_)) {
+    for (const cluster::ShardFile& file :
+         cluster::readShards(request_.folders, "presa cost STUDY", diagnostics_, "--resume")) {
       try {
         shards_.push_back(partFrom(file));
       } catch (const std::exception&) {
@@ -180,15 +181,15 @@ class Merge {
 
 }  // namespace
 
-std::string workOf(const Study& study, bool instructions) {
-  return std::to_string(identityOf(study).study) + (instructions ? " counted" : "");
+std::string workOf(std::uint64_t study, bool instructions) {
+  return std::to_string(study) + (instructions ? " counted" : "");
 }
 
 void writeShard(const Study& study, const Request& request, bool instructions) {
   Request absolute = request;  // the merge may run in another folder
   absolute.input = fs::absolute(request.input).lexically_normal().string();
   if (!request.rig.empty()) absolute.rig = fs::absolute(request.rig).lexically_normal().string();
-  cluster::writeShardFile(study.folder, *request.shard, workOf(study, instructions),
+  cluster::writeShardFile(study.folder, *request.shard, workOf(identityOf(study).study, instructions),
                           {{"instructions", instructions},
                            {"machine", machineFacts()},
                            {"files", filesIn(study.folder)},

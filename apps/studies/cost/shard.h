@@ -8,8 +8,9 @@
 
 namespace presa::cost {
 
-/// The work that a shard of this study is a part of, for cluster::holdsShard(). `instructions`: they are counted.
-std::string workOf(const Study& study, bool instructions);
+/// The work that a shard of a study (Identity::study) is a part of, for cluster::holdsShard(). `instructions`: they are
+/// counted.
+std::string workOf(std::uint64_t study, bool instructions);
 
 /// Writes the file of a shard whose runs are done, in the study's folder; a folder without it holds no finished shard.
 void writeShard(const Study& study, const Request& request, bool instructions);

@@ -6,6 +6,7 @@
 #include "apps/common/exit_status.h"
 #include "apps/studies/cost/apply.h"
 #include "apps/studies/cost/driver.h"
+#include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/shard.h"
 #include "apps/studies/cost/shard_commands.h"
 #include "apps/studies/cost/study_arguments.h"
@@ -28,7 +29,8 @@ cluster::ShardedWork shardedWork(const SubmitArguments& a, const Study& study) {
           .name = "presa_cost_" + study.name,
           .folder = study.folder + "/shards",
           .words = std::move(words),
-          .is_done = [work = workOf(study, a.study->instructions)](const std::string& folder, const Shard& shard) {
+          .is_done = [work = workOf(identityOf(study).study, a.study->instructions)](const std::string& folder,
+                                                                                     const Shard& shard) {
             return cluster::holdsShard(folder, shard, work);
           }};
 }

@@ -106,6 +106,13 @@ std::vector<std::string> beatenIn(const Result& result, const std::vector<std::s
   return parts;
 }
 
+/// Whether a setting beside the default could replace it.
+bool hasCandidates(const Result& result) {
+  for (std::size_t i = 1; i < result.outcomes.size(); ++i)
+    if (comparable(result, i)) return true;
+  return false;
+}
+
 void addUnfelt(const Result& result, Verdict& verdict) {
   const bool known = std::any_of(result.metrics.begin(), result.metrics.end(), [&](const std::string& metric) {
     return result.reference.noticeable.contains(metric);
@@ -186,6 +193,12 @@ Verdict verdictOf(const Result& result) {
     if (const std::string prices = pricesOf(result, better); !prices.empty())
       verdict.details.push_back("It is worse than the default in errors that this study does not judge: " + prices +
                                 ".");
+  } else if (!hasCandidates(result)) {
+    verdict.kind = Verdict::Kind::kOnFront;
+    verdict.headline = "The default has no rival here";
+    verdict.details.push_back(
+        "The other settings have latency, late ticks or another engine. They are compared with the "
+        "same reference, and are no choice.");
   } else if (ratio <= 1) {
     verdict.kind = Verdict::Kind::kOnFront;
     verdict.headline = "The default is on the front";

@@ -129,7 +129,8 @@ std::string workPlots(const Result& result) {
   std::string out =
       "<h2>Error over cost</h2>\n<p class=\"caption\">Large diamond: the scene as it stands. Filled, on the line: no "
       "setting of the "
-      "default's engine beats it. Pale: beaten. Hollow, in the shaded ground: below the reference's resolution (ten "
+      "default's engine beats it. Pale: beaten, of another engine, or with latency or late ticks, which nobody "
+      "chooses. Hollow, in the shaded ground: below the reference's resolution (ten "
       "times its residual), no better than its edge. ✕ failed. Whiskers: spread of the repeats. Labels: values that "
       "differ from the default's. Costs within 5 % count as the same.</p>\n<div class=\"pair\">\n";
   for (const std::string& name : openMetrics(result)) out += figureHtml(result, name, looks);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/stability/wall_loop.h"
+#include "experiments/study/energy_ledger.h"
 #include "experiments/study/prescribed_finger.h"
 #include "experiments/study/study_run.h"
 
@@ -128,6 +129,30 @@ TEST(LateTicks, AForceIsHeldUntilTheLateTick) {
     else
       EXPECT_EQ(force[i], force[i - 1]) << i;
   }
+}
+
+// A cube falls in exact steps of 5 ms. Several steps between two observations leave the velocities too old.
+TEST(EnergyLedger, JudgesNoStepWhosePredecessorItHasNotSeen) {
+  const StudyRun cube({.scene = PRESA_SOURCE_DIR "/config/scenes/cube.xml"});
+  const auto world = std::make_shared<const World>(cube.world());
+  EnergyLedger ledger(world);
+  constexpr double kStep = 0.005, kGravity = 9.81;
+  const auto height = [](double time) { return 1 - 0.5 * kGravity * time * time; };
+  ObjectState objects;
+  objects.bodies.resize(world->scene.bodies.size());
+  const DeviceState device(world->scene.devices.size());
+  const ContactExchange contact(world->scene.devices.size());
+  const ForceCommand command(world->scene.devices.size());
+  for (const std::uint64_t step : {0, 1, 2, 3, 8, 9, 10, 30, 31}) {
+    const double time = kStep * static_cast<double>(step);
+    objects.time_begin = time;
+    objects.time_end = time + kStep;
+    objects.bodies[1].X_WB_begin.p.z() = height(time);
+    objects.bodies[1].v_WB.z() = -kGravity * objects.time_end;
+    const Tick tick{.index = 5 * step, .time = time, .period = 0.001};
+    ledger.observe({tick, device, contact, command, &objects, step + 1});
+  }
+  EXPECT_LT(ledger.created(), 1e-9);
 }
 
 }  // namespace

@@ -54,6 +54,14 @@ TEST(Conditions, AreRefusedOutOfRange) {
             "  help: conditions of a run: run/latency, run/haptic_jitter, run/collision_jitter, run/dynamics_jitter\n");
 }
 
+TEST(Conditions, AreNoValuesForAllSettings) {
+  const auto outcome = test::presa("cost " + kCube + " --set run/latency=0.01 --out " + test::scratch("never"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err,
+            "--set: error[E802]: 'run/latency=0.01' is a condition of the run, and no value of the scene\n"
+            "  help: conditions are knobs, beside a run without: --knob latency=0,0.01\n");
+}
+
 // The hash decides which stored run is taken again.
 TEST(Conditions, CountInTheHashOfASetting) {
   Diagnostics diagnostics;
@@ -74,7 +82,7 @@ TEST(Conditions, AStudyComparesDelaysWithARunWithoutAny) {
       test::presa("cost " + kCube + " --for 2 --quick --metric force_held --metric energy_created --out " + out +
                   " --knob latency=0,0.001,0.002,0.004");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("The default is on the front"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("The default has no rival here"), std::string::npos) << outcome.out;
   const auto report = nlohmann::json::parse(contentsOf(out + "/cost.json"));
   ASSERT_EQ(report["settings"].size(), 4u);
   EXPECT_EQ(report["settings"][0]["name"], "default");
