@@ -130,7 +130,8 @@ void Processor::greet(const WireByte& byte, SerialLine& line) {
   heard_.clear();
   if (greetings_++ < loader_.deaf_greetings) return;
   state_ = State::kGreeted;
-  line.processorWrites(std::span(kAnswer).subspan(loader_.zero_before ? 0 : 1), kLoaderBaud, 0, byte.time + kReplyDelay);
+  line.processorWrites(std::span(kAnswer).subspan(loader_.zero_before ? 0 : 1), kLoaderBaud, 0,
+                       byte.time + kReplyDelay);
 }
 
 void Processor::load(const WireByte& byte, SerialLine& line) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kWake = 250'000;   // [ns]
 constexpr int kPriority = 82;             // above the haptic thread (80), so that it does not delay this thread
 constexpr double kZeroForceTime = 20e-3;  // [s] of zero force at the end
-constexpr double kEndPatience = 1;      // [s] max wait at the end for a device that accepts no requests
+constexpr double kEndPatience = 1;        // [s] max wait at the end for a device that accepts no requests
 
 }  // namespace
 
