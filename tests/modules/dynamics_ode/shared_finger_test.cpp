@@ -47,7 +47,7 @@ TEST(SharedFinger, EachBodyGetsItsOwnPart) {
 // A fingertip in a groove of two cubes slides along it at 0.1 m/s, its friction on the rough one alone: of the two, only
 // that one is taken along, with mu f_n. Same tolerance.
 TEST(SharedFinger, EachBodyGetsItsOwnFriction) {
-  constexpr double kMass = 50, kStiffness = 1000, kTime = 0.02, kMu = 0.5, kNormal = 1;
+  constexpr double kMass = 50, kStiffness = 1000, kTime = 0.02, kMu = 0.5, kNormalForce = 1;
   for (const std::int32_t rough : {0, 1}) {
     WorldMaker maker;
     maker.gravity(Vec3::Zero()).friction(0);
@@ -68,7 +68,7 @@ TEST(SharedFinger, EachBodyGetsItsOwnFriction) {
                                .p_BP = X_WB.inverseTimes(contact.p_WP),
                                .nhat_B = X_WB.q.conjugate() * nhat,
                                .v_WH = contact.v_WH,
-                               .stretch_W = (kNormal * nhat - mu * kNormal * Vec3::UnitY()) / kStiffness,
+                               .stretch_W = (kNormalForce * nhat - mu * kNormalForce * Vec3::UnitY()) / kStiffness,
                                .stiffness = kStiffness,
                                .mode = ContactMode::kSlip,
                                .friction_static = mu,
@@ -79,7 +79,8 @@ TEST(SharedFinger, EachBodyGetsItsOwnFriction) {
     }
     for (const std::int32_t body : {0, 1}) {
       const double given = kMass * runner[static_cast<std::size_t>(body)].v_WB.y();
-      EXPECT_NEAR(given, body == rough ? kMu * kNormal * kTime : 0, 0.01 * kMu * kNormal * kTime) << rough << body;
+      EXPECT_NEAR(given, body == rough ? kMu * kNormalForce * kTime : 0, 0.01 * kMu * kNormalForce * kTime)
+          << rough << body;
     }
   }
 }
