@@ -119,7 +119,8 @@ struct WorkFigure {
 std::string render(const TimeFigure& figure);
 /// Both axes from 0.
 std::string render(const ScatterFigure& figure);
-/// Every point carries its label for the page's hover read-out and for readers without one (title).
+/// Every point carries its label for the page's hover read-out and for readers without one (title). Of more than a
+/// thousand points, one is drawn and saved for each place.
 std::string render(const WorkFigure& figure);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) inside [low, high], about `target` of them.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "apps/common/report/svg_plot.h"
 #include "apps/common/report/svg_save.h"
@@ -9,7 +11,9 @@
 namespace presa::svg {
 namespace {
 
-constexpr double kWorkWidth = 520, kWorkHeight = 400;                                 // [px]
+constexpr double kWorkWidth = 520, kWorkHeight = 400;  // [px]
+constexpr std::size_t kManyPoints = 1000;              // more are thinned
+constexpr double kPlace = 10;  // side of a square in which one of them stands for all: their size [px]
 constexpr double kWorkLeft = 62, kWorkRight = 506, kWorkTop = 30, kWorkBottom = 350;  // plotting area
 
 /// Logarithmic map from data to pixels.
@@ -120,6 +124,20 @@ std::string symbol(const WorkPoint& point, const LogScale& x, const LogScale& y,
   return out;
 }
 
+/// The figure with one point for each place; the default and the front stay whole.
+WorkFigure thinned(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
+  WorkFigure out = figure;
+  std::set<std::pair<int, int>> taken;
+  std::erase_if(out.points, [&](const WorkPoint& point) {
+    const auto place = [](double at) { return static_cast<int>(std::floor(at / kPlace)); };
+    const bool is_new = taken.insert({place(x(point.at.x)), place(heightOf(point, y))}).second;
+    return point.css_class == "other" && !is_new;
+  });
+  for (WorkPoint& point : out.points)
+    if (point.css_class == "other") point.x_low = point.x_high = point.at.x;
+  return out;
+}
+
 Csv csvOf(const WorkFigure& figure) {
   Csv csv({"setting", figure.x_label, figure.x_label + " low", figure.x_label + " high", figure.y_label});
   for (const WorkPoint& point : figure.points)
@@ -165,23 +183,29 @@ std::string legendBelow(const WorkFigure& figure, double& bottom) {
 
 }  // namespace
 
-std::string render(const WorkFigure& figure) {
+std::string render(const WorkFigure& whole) {
   Span x_span, y_span;
-  for (const WorkPoint& point : figure.points) {
+  for (const WorkPoint& point : whole.points) {
     for (const double x : {point.at.x, point.x_low, point.x_high}) x_span.include(x);
     if (!point.failed) y_span.include(point.at.y);
   }
   if (!(x_span.high > 0)) return "<p class=\"empty\">No setting was timed.</p>\n";
-  for (const Level& level : figure.x_levels) x_span.include(level.value);
-  for (const Level& level : figure.y_levels) y_span.include(level.value);
+  for (const Level& level : whole.x_levels) x_span.include(level.value);
+  for (const Level& level : whole.y_levels) y_span.include(level.value);
   if (!(y_span.high > 0)) y_span = {0.1, 1};
   const LogScale x = x_span.over(kWorkLeft, kWorkRight), y = y_span.over(kWorkBottom, kWorkTop + 16);
+  const bool many = whole.points.size() > kManyPoints;
+  const WorkFigure figure = many ? thinned(whole, x, y) : whole;
 
   double bottom = kWorkHeight;
   const std::string below = legendBelow(figure, bottom);
   std::string out = "<svg viewBox=\"0 0 " + px(kWorkWidth) + " " + px(bottom) + "\" role=\"img\" aria-label=\"" +
                     escape(figure.title) + "\">\n" + levels(figure, x, y) + axes(figure, x, y);
   if (!figure.legend.empty()) out += textAt(kWorkLeft + 10, kWorkTop + 14, "legend", escape(figure.legend));
+  if (many)
+    out += textAt(kWorkLeft + 10, kWorkTop - 8, "legend",
+                  std::to_string(figure.points.size()) + " of " + std::to_string(whole.points.size()) +
+                      " drawn, one at each place");
   std::string path;
   for (const Point& point : figure.front)
     path += (path.empty() ? "M" : "L") + px(x(point.x)) + " " +

@@ -1,5 +1,6 @@
 #include "apps/studies/cost/report_tables.h"
 
+#include <set>
 #include <vector>
 
 #include "apps/common/report/html.h"
@@ -15,6 +16,8 @@ using html::row;
 using html::table;
 using svg::escape;
 using terminal::format;
+
+constexpr std::size_t kManySettings = 500;  // more do not stand in one table
 
 /// The error, or its upper bound when the reference does not resolve it.
 std::string claimText(const Result& result, const Outcome& outcome, const std::string& metric) {
@@ -34,6 +37,18 @@ std::string gainTable(const Result& result, const std::string& metric) {
   const Metric& m = *findMetric(metric);
   return "<h3>" + escape(m.title) + "</h3>\n" +
          table({"knob", "from the default to", "processor time ×", "error ×", "error × for twice the cost"}, rows);
+}
+
+/// The settings that the table shows: of thousands the default, those on a front, and the first others.
+std::vector<std::size_t> shownSettings(const Result& result) {
+  std::set<std::size_t> shown;
+  if (!result.outcomes.empty()) shown.insert(0);
+  if (result.outcomes.size() > kManySettings) {
+    for (const std::string& metric : result.metrics)
+      for (const Judged& each : frontOf(result, metric)) shown.insert(each.index);
+  }
+  for (std::size_t i = 0; i < result.outcomes.size() && shown.size() < kManySettings; ++i) shown.insert(i);
+  return {shown.begin(), shown.end()};
 }
 
 }  // namespace
@@ -112,7 +127,9 @@ std::string settings(const Result& result) {
                            "dynamics", "memory [MB]", "load [ms]", "million instructions / s"})
     head.emplace_back(cost);
   std::string rows;
-  for (const Outcome& outcome : result.outcomes) {
+  const std::vector<std::size_t> shown = shownSettings(result);
+  for (const std::size_t i : shown) {
+    const Outcome& outcome = result.outcomes[i];
     std::vector<std::string> cells{escape(outcome.setting.name)};
     if (!outcome.failure.empty()) cells[0] += "<br><span class=\"fault\">✕ " + escape(outcome.failure) + "</span>";
     for (const std::string& name : result.metrics) {
@@ -138,8 +155,12 @@ std::string settings(const Result& result) {
     cells.resize(head.size());
     rows += row(cells);
   }
-  return table(head, rows) +
-         "<p class=\"caption\">Tick times: the first repeat. The same in cost.csv and, with every repeat, in "
+  const std::string some = shown.size() == result.outcomes.size()
+                               ? ""
+                               : format("%zu of %zu settings: the default, those on a front, and the first others. ",
+                                        shown.size(), result.outcomes.size());
+  return table(head, rows) + "<p class=\"caption\">" + some +
+         "Tick times: the first repeat. The same in cost.csv and, with every repeat, in "
          "cost.json.</p>\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "apps/common/terminal/text.h"
 #include "apps/studies/cost/analysis.h"
@@ -20,16 +21,29 @@ std::string listed(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// The setting and the default in one metric; no value when one of them has no error there.
-struct Pair {
-  Judged usual, other;
+/// Every setting beside the default, in every metric.
+class Pairs {
+ public:
+  explicit Pairs(const Result& result) {
+    for (const std::string& metric : result.metrics) {
+      std::vector<std::optional<Judged>>& row = judged_[metric];
+      row.resize(result.outcomes.size());
+      for (const Judged& each : judged(result, metric)) row[each.index] = each;
+    }
+  }
+  /// No value when one of the two has no error there.
+  struct Pair {
+    Judged usual, other;
+  };
+  std::optional<Pair> of(const std::string& metric, std::size_t index) const {
+    const std::vector<std::optional<Judged>>& row = judged_.at(metric);
+    if (!row.front() || !row[index]) return std::nullopt;
+    return Pair{*row.front(), *row[index]};
+  }
+
+ private:
+  std::map<std::string, std::vector<std::optional<Judged>>> judged_;
 };
-std::optional<Pair> pairOf(const Result& result, const std::string& metric, std::size_t index) {
-  const std::vector<Judged> all = judged(result, metric);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Judged& each) { return each.index == index; });
-  if (all.empty() || all.front().index != 0 || found == all.end()) return std::nullopt;
-  return Pair{all.front(), *found};
-}
 
 bool felt(const Result& result, const std::string& metric, std::size_t index) {
   const auto limit = result.reference.noticeable.find(metric);
@@ -47,13 +61,12 @@ bool defaultUnfelt(const Result& result, const std::vector<std::string>& names) 
 }
 
 /// How much the setting gains over the default, as a sum of logarithms; no value when it may not replace it.
-std::optional<double> gainOf(const Result& result, std::size_t index) {
+std::optional<double> gainOf(const Result& result, const Pairs& pairs, std::size_t index) {
   double sum = 0;
   bool beyond = false, all_better = true, any = false;
   for (const std::string& metric : judgedMetrics(result)) {
-    const auto usual = pairOf(result, metric, 0);
-    if (!usual) continue;
-    const auto pair = pairOf(result, metric, index);
+    if (!pairs.of(metric, 0)) continue;
+    const auto pair = pairs.of(metric, index);
     if (!pair || !noDearer(pair->other, pair->usual) || pair->other.error > pair->usual.error) return std::nullopt;
     const double error = pair->usual.error / pair->other.error;
     const double cost = cheaper(pair->other, pair->usual) ? pair->usual.cost.median / pair->other.cost.median : 1;
@@ -71,9 +84,10 @@ std::optional<double> gainOf(const Result& result, std::size_t index) {
 
 /// "0.98 times the processor time; 1/1.41 of the error (force, RMS error)"
 std::string gainText(const Result& result, std::size_t better) {
+  const Pairs pairs(result);
   std::vector<std::string> parts;
   for (const std::string& metric : judgedMetrics(result)) {
-    const auto pair = pairOf(result, metric, better);
+    const auto pair = pairs.of(metric, better);
     if (!pair) continue;
     if (parts.empty())
       parts.push_back(
@@ -87,9 +101,10 @@ std::string gainText(const Result& result, std::size_t better) {
 
 /// Errors, judged or not, in which the setting is worse than the default by more than kNearFront.
 std::string pricesOf(const Result& result, std::size_t better) {
+  const Pairs pairs(result);
   std::vector<std::string> parts;
   for (const std::string& metric : result.metrics) {
-    const auto pair = pairOf(result, metric, better);
+    const auto pair = pairs.of(metric, better);
     if (pair && pair->other.error > kNearFront * pair->usual.error)
       parts.push_back(format("%s %.3g times", titleOf(metric).c_str(), pair->other.error / pair->usual.error));
   }
@@ -152,11 +167,12 @@ std::vector<std::string> judgedMetrics(const Result& result) {
 }
 
 std::optional<std::size_t> betterSetting(const Result& result) {
+  const Pairs pairs(result);
   std::optional<std::size_t> best;
   double best_gain = 0;
   for (std::size_t i = 1; i < result.outcomes.size(); ++i) {
     if (!comparable(result, i)) continue;
-    const auto gain = gainOf(result, i);
+    const auto gain = gainOf(result, pairs, i);
     if (!gain || (best && *gain <= best_gain)) continue;
     best = i;
     best_gain = *gain;

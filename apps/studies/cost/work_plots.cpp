@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "apps/common/report/page.h"
 #include "apps/common/report/svg_plot.h"
@@ -101,12 +102,16 @@ std::vector<std::string> openMetrics(const Result& result) {
   return names;
 }
 
+/// A metric's settings and their front.
+struct Drawn {
+  std::vector<Judged> all, front;
+};
+
 /// True when a plot of `b` would repeat that of `a`: the same front, and errors in nearly the same ratios.
-bool repeats(const Result& result, const std::string& a, const std::string& b) {
-  const std::vector<Judged> x = judged(result, a), y = judged(result, b), front_a = frontOf(result, a),
-                            front_b = frontOf(result, b);
+bool repeats(const Drawn& a, const Drawn& b) {
+  const std::vector<Judged>&x = a.all, &y = b.all;
   const auto same = [](const Judged& p, const Judged& q) { return p.index == q.index; };
-  if (!std::equal(front_a.begin(), front_a.end(), front_b.begin(), front_b.end(), same)) return false;
+  if (!std::equal(a.front.begin(), a.front.end(), b.front.begin(), b.front.end(), same)) return false;
   if (!std::equal(x.begin(), x.end(), y.begin(), y.end(), same)) return false;
   double n = 0, sx = 0, sy = 0, xx = 0, yy = 0, xy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -117,9 +122,8 @@ bool repeats(const Result& result, const std::string& a, const std::string& b) {
   return spread > 0 && n * xy - sx * sy > 0.95 * std::sqrt(spread);
 }
 
-bool isFlat(const Result& result, const std::string& name) {
-  const std::vector<Judged> all = judged(result, name);
-  return std::all_of(all.begin(), all.end(), [&](const Judged& each) { return each.error == all.front().error; });
+bool isFlat(const Drawn& drawn) {
+  return std::ranges::all_of(drawn.all, [&](const Judged& each) { return each.error == drawn.all.front().error; });
 }
 
 }  // namespace
@@ -140,12 +144,14 @@ std::string workPlots(const Result& result) {
 std::string otherPlots(const Result& result) {
   const Looks looks = looksOf(result);
   std::vector<std::string> drawn = openMetrics(result);
+  std::map<std::string, Drawn> settings;
+  for (const std::string& name : result.metrics) settings[name] = {judged(result, name), frontOf(result, name)};
   std::string figures, left_out;
   for (const std::string& name : result.metrics) {
     if (std::find(drawn.begin(), drawn.end(), name) != drawn.end()) continue;
     const auto like = std::find_if(drawn.begin(), drawn.end(),
-                                   [&](const std::string& other) { return repeats(result, other, name); });
-    if (isFlat(result, name)) {
+                                   [&](const std::string& other) { return repeats(settings[other], settings[name]); });
+    if (isFlat(settings[name])) {
       left_out += "<li>" + escape(findMetric(name)->title) + ": the same in all settings.</li>\n";
     } else if (like != drawn.end()) {
       left_out += "<li>" + escape(findMetric(name)->title) + ": as " + escape(lowered(findMetric(*like)->title)) +
