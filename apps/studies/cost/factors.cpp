@@ -12,6 +12,7 @@
 #include "apps/studies/cost/law_factor.h"
 #include "framework/scene/load.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa::cost {
 namespace {
@@ -402,14 +403,18 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
     std::erase_if(factor.values, [&](const FactorValue& value) {
       return checkScene({scene.file, "", {}}, value.sets, "").diagnostics.hasErrors();
     });
-    if (!factor.values.empty()) factors.push_back(std::move(factor));
+    if (factor.values.empty()) return false;
+    factors.push_back(std::move(factor));
+    return true;
   };
   if (moves)
     add("dynamics_rate", quick ? std::vector<std::string>{"100", "200", "500"}
                                : std::vector<std::string>{"50", "100", "200", "250", "500", "1000"});
-  if (touches)
-    add("haptic_rate", quick ? std::vector<std::string>{"1000", "2000"}
-                             : std::vector<std::string>{"400", "500", "1000", "2000", "4000"});
+  const bool usual_rates =
+      touches && add("haptic_rate", quick ? std::vector<std::string>{"1000", "2000"}
+                                          : std::vector<std::string>{"400", "500", "1000", "2000", "4000"});
+  if (touches && !usual_rates)  // the scene's other rates do not fit to them
+    add("haptic_rate", {xml::numberText(2 * scene.rates.haptic), xml::numberText(4 * scene.rates.haptic)});
   if (moves && touches) add("coupling", {"soft", "explicit", "averaged", "haptic_rate"});
   if (moves && touches) add("pose", {"interpolate", "hold"});
   if (meshes)

@@ -1,11 +1,13 @@
 #include "apps/studies/cost/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
 #include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/factors.h"
+#include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/metrics.h"
 #include "framework/input/folders.h"
 
@@ -31,13 +33,21 @@ Factor parseFactor(const std::string& text, const Scene& scene, const std::strin
   return makeFactor(text.substr(0, equals), values, scene, folder, where, diagnostics);
 }
 
-std::vector<std::vector<std::string>> defaultReference(const Plan& plan) {
+// moving ones: with more, a quick study takes no finer reference than the second
+constexpr std::size_t kManyBodies = 2;
+bool fits(double haptic, double rate) { return std::abs(haptic / rate - std::round(haptic / rate)) < 1e-9; }
+
+std::vector<std::vector<std::string>> defaultReference(const Loaded& base, bool quick) {
+  const Scene& scene = base.world->scene;
+  const auto moving = std::ranges::count_if(scene.bodies, [](const Body& body) { return !body.fixed; });
+  const bool motion = hasMotion(base.plan), meshes = base.plan.has("collision_fcl");
   std::vector<std::vector<std::string>> levels;
-  for (const char* rate : {"5000", "10000", "20000", "40000"}) {
+  for (const int rate : {5000, 10000, 20000, 40000}) {
+    if (quick && static_cast<std::size_t>(moving) > kManyBodies && levels.size() == kFirstLevels) break;
     std::vector<std::string>& sets = levels.emplace_back();
-    sets.push_back("rates/haptic=" + std::string(rate));
-    if (hasMotion(plan)) sets.push_back("rates/dynamics=" + std::string(rate));
-    if (plan.has("collision_fcl")) sets.push_back("rates/collision=2500");
+    sets.push_back("rates/haptic=" + std::to_string(rate));
+    if (motion || !fits(rate, scene.rates.dynamics)) sets.push_back("rates/dynamics=" + std::to_string(rate));
+    if (meshes || !fits(rate, scene.rates.collision)) sets.emplace_back("rates/collision=2500");
   }
   return levels;
 }
@@ -126,7 +136,7 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   if (study.reference_kind != Reference::kRefined)
     study.reference.clear();
   else if (study.reference.empty())
-    study.reference = defaultReference(base.plan);
+    study.reference = defaultReference(base, request.quick);
   for (const auto& level : study.reference) checkedScene(study.inputs, level, study.folder, diagnostics);
 
   const bool hands_off = scene.devices.empty() && hasMotion(base.plan);

@@ -33,6 +33,21 @@ TEST(ShippedStudies, CanBePlanned) {
   EXPECT_EQ(studies, 11);
 }
 
+// Also of one whose rates fit to no round ones: 167 Hz everywhere.
+TEST(ShippedScenes, HaveAQuickStudy) {
+  for (const char* scene : {"cube", "rate_167", "plane", "pile"}) {
+    Request request;
+    request.input = test::source(std::string("config/scenes/") + scene + ".xml");
+    request.out = test::scratch("planned");
+    request.quick = true;
+    Diagnostics diagnostics;
+    const Study study = planStudy(request, diagnostics);
+    EXPECT_FALSE(diagnostics.hasErrors()) << scene << diagnostics.text();
+    EXPECT_GE(study.settings.size(), 2u) << scene;
+    EXPECT_EQ(study.reference.size(), std::string(scene) == "pile" ? 2u : 4u) << scene;
+  }
+}
+
 // Each grid has values of its own; a sentence may compare those of any.
 TEST(StudyFile, ASentenceMayNameAKnobOfSeveralGrids) {
   const std::string file = test::scratch("grids.xml");
