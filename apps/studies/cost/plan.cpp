@@ -33,22 +33,29 @@ Factor parseFactor(const std::string& text, const Scene& scene, const std::strin
   return makeFactor(text.substr(0, equals), values, scene, folder, where, diagnostics);
 }
 
-// moving ones: with more, a quick study takes no finer reference than the second
-constexpr std::size_t kManyBodies = 2;
+constexpr std::size_t kManyBodies = 2;  // more that move are slow to step
+
+/// Levels of the reference: of a quick study two for many bodies, three for meshes, so that it takes 20 s at most.
+std::size_t levelsFor(const Loaded& base, bool quick) {
+  if (!quick) return 4;
+  const auto moving = std::ranges::count_if(base.world->scene.bodies, [](const Body& body) { return !body.fixed; });
+  return static_cast<std::size_t>(moving) > kManyBodies ? 2 : base.plan.has("collision_fcl") ? 3 : 4;
+}
+
+/// Whether ticks of `rate` fall on those of the haptic thread.
 bool fits(double haptic, double rate) { return std::abs(haptic / rate - std::round(haptic / rate)) < 1e-9; }
 
 std::vector<std::vector<std::string>> defaultReference(const Loaded& base, bool quick) {
   const Scene& scene = base.world->scene;
-  const auto moving = std::ranges::count_if(scene.bodies, [](const Body& body) { return !body.fixed; });
   const bool motion = hasMotion(base.plan), meshes = base.plan.has("collision_fcl");
   std::vector<std::vector<std::string>> levels;
   for (const int rate : {5000, 10000, 20000, 40000}) {
-    if (quick && static_cast<std::size_t>(moving) > kManyBodies && levels.size() == kFirstLevels) break;
     std::vector<std::string>& sets = levels.emplace_back();
     sets.push_back("rates/haptic=" + std::to_string(rate));
     if (motion || !fits(rate, scene.rates.dynamics)) sets.push_back("rates/dynamics=" + std::to_string(rate));
     if (meshes || !fits(rate, scene.rates.collision)) sets.emplace_back("rates/collision=2500");
   }
+  levels.resize(levelsFor(base, quick));
   return levels;
 }
 
