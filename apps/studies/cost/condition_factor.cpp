@@ -27,7 +27,7 @@ std::vector<std::string> conditionPaths() {
   return paths;
 }
 
-/// Reads a number within [low, high] that ends at `end`.
+/// Reads a text that is a number within [low, high].
 template <class Value>
 bool readWithin(std::string_view text, Value low, Value high, Value& value) {
   const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -52,14 +52,15 @@ std::vector<Judged> frontOf(const Result& result, const std::string& metric) {
   std::erase_if(all, [&](const Judged& each) { return !comparable(result, each.index); });
   const auto cheapest_first = [](const Judged& a, const Judged& b) { return a.cost.median < b.cost.median; };
   std::stable_sort(all.begin(), all.end(), cheapest_first);
-  // of thousands of settings most are no dearer and less accurate than another: found by the least error up to a cost
-  std::vector<double> least;
-  for (const Judged& each : all) least.push_back(least.empty() ? each.error : std::min(least.back(), each.error));
+  // most of thousands of settings are less accurate than one that is no dearer: the min error up to a cost tells
+  std::vector<double> min_error;
+  for (const Judged& each : all)
+    min_error.push_back(min_error.empty() ? each.error : std::min(min_error.back(), each.error));
   std::vector<Judged> front;
   std::size_t no_dearer = 0;
   for (const Judged& each : all) {
     while (no_dearer < all.size() && noDearer(all[no_dearer], each)) ++no_dearer;
-    if (least[no_dearer - 1] < each.error) continue;
+    if (min_error[no_dearer - 1] < each.error) continue;
     if (std::none_of(all.begin(), all.end(), [&](const Judged& other) { return beats(other, each); }))
       front.push_back(each);
   }

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "apps/common/report/svg_plot.h"
-#include "apps/common/terminal/text.h"
 #include "apps/studies/cost/analysis.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/verdict.h"
+#include "apps/studies/cost/work_plots.h"
 
 namespace presa::cost {
 namespace {
@@ -56,14 +56,14 @@ std::string figureOf(const Result& result, const Metric& metric, const std::stri
                              .failed = failed});
     if (!failed && height > 0) figure.front.push_back({value, height});
   }
+  if (figure.front.size() < kFewest) return {};
   const bool drawn = std::ranges::any_of(line, [&](const auto& each) { return each.second == &usual; });
   const auto error = usual.error.find(metric.name);
   if (!drawn && error != usual.error.end() && error->second > 0)
     figure.y_levels.push_back({error->second, "default", ""});
-  if (figure.front.size() < kFewest) return {};
   const auto [low, high] = std::ranges::minmax(figure.front, {}, &svg::Point::y);
   const auto limit = result.reference.noticeable.find(metric.name);
-  if (limit != result.reference.noticeable.end() && limit->second < 10 * high.y && limit->second > low.y / 10)
+  if (limit != result.reference.noticeable.end() && isNear(limit->second, low.y, high.y))
     figure.y_levels.push_back({limit->second, "just noticeable", ""});
   return "<figure><h3>" + svg::escape(knob) + "</h3>\n" + svg::render(figure) + "</figure>\n";
 }
@@ -76,8 +76,7 @@ std::string knobPlots(const Result& result) {
   const Metric& metric = *findMetric(names.front());
   std::string figures;
   for (const Factor& factor : result.study.factors) {
-    const std::map<double, const Outcome*> line = along(result, factor.name);
-    figures += figureOf(result, metric, factor.name, line);
+    figures += figureOf(result, metric, factor.name, along(result, factor.name));
   }
   if (figures.empty()) return {};
   return "<p class=\"caption\">" + svg::escape(metric.title) +

@@ -33,9 +33,6 @@ std::string readout(const Result& result, const Outcome& outcome, const std::str
          format("\nbusiest tick %.3g of its period", outcome.busiestTick().median);
 }
 
-/// True when a level lies close enough to the points that drawing it does not squeeze them.
-bool isNear(double level, double low, double high) { return level < 10 * high && level > low / 10; }
-
 void addLevels(const Result& result, const std::string& name, svg::WorkFigure& figure) {
   double low = INFINITY, high = 0, cost = 0;
   for (const svg::WorkPoint& point : figure.points) {
@@ -127,6 +124,8 @@ bool isFlat(const Drawn& drawn) {
 }
 
 }  // namespace
+
+bool isNear(double level, double low, double high) { return level < 10 * high && level > low / 10; }
 
 std::string workPlots(const Result& result) {
   const Looks looks = looksOf(result);

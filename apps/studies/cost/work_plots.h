@@ -12,4 +12,7 @@ std::string otherPlots(const Result& result);
 /// The plot of the first judged metric as an SVG file, or "".
 std::string frontPicture(const Result& result);
 
+/// Whether a level is so close to points between `low` and `high` that drawing it does not squeeze them.
+bool isNear(double level, double low, double high);
+
 }  // namespace presa::cost
