@@ -111,7 +111,11 @@ int collide(dGeomID one, dGeomID other, int most, dContactGeom* contacts) {
 }
 
 Engine::Engine(const Vec3& gravity, std::uint64_t seed, std::size_t contacts)
-    : world_(createWorld(gravity, contacts)), random_state_(static_cast<unsigned long>(seed)) {
+    : world_(createWorld(gravity, contacts)),
+      jobs_(dThreadingAllocateSelfThreadedImplementation()),
+      random_state_(static_cast<unsigned long>(seed)) {
+  if (!jobs_) throw std::runtime_error("ODE: no memory for the jobs of a world");
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(jobs_.get()), jobs_.get());
   for (std::size_t joints = 0; joints < contacts; joints += kJointsPerGroup) groups_.push_back(dJointGroupCreate(0));
   takeMemory(contacts);
 }

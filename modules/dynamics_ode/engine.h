@@ -2,6 +2,7 @@
 #include <ode/ode.h>
 
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -29,8 +30,9 @@ std::uint64_t messageCount() noexcept;
 /// waits, so the haptic thread must not collide meshes beside other threads.
 int collide(dGeomID one, dGeomID other, int most, dContactGeom* contacts);
 
-/// One ODE world with the contact joints of one solve and its own state of ODE's global random numbers. Must be
-/// created, used and destroyed on one thread. Failures inside ODE are thrown as OdeFailure.
+/// One ODE world with the contact joints of one solve, its own queue of solver jobs, and its own state of ODE's global
+/// random numbers. Must be created, used and destroyed on one thread; other worlds may step on other threads meanwhile.
+/// Failures inside ODE are thrown as OdeFailure.
 class Engine {
  public:
   /// Reserves memory for `contacts`; more contacts allocate once.
@@ -55,7 +57,13 @@ class Engine {
   void takeMemory(std::size_t joints);
   dJointID createContact(const dContact& contact);
 
+  struct FreeJobs {
+    void operator()(dThreadingImplementationID jobs) const { dThreadingFreeImplementation(jobs); }
+  };
+
   dWorldID world_;
+  // by default ODE queues the jobs of all worlds in one list, unguarded: two threads that step would corrupt it
+  std::unique_ptr<dxThreadingImplementation, FreeJobs> jobs_;
   std::vector<dJointGroupID> groups_;
   std::size_t joints_ = 0;  // joints in use
   unsigned long random_state_;
