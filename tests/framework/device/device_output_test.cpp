@@ -33,7 +33,7 @@ struct Rig {
     finger = static_cast<StillFinger*>(devices[0].get());
     GraphBuilder builder;
     builder.add(std::make_unique<DeviceInput>(devices, control));
-    builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0)));
+    rendering = &builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0)));
     objects = &builder.add(std::make_unique<Objects>());
     builder.add(std::make_unique<Neighbourhoods>());
     output = &builder.add(std::make_unique<DeviceOutput>(
@@ -63,6 +63,7 @@ struct Rig {
   DeviceList devices;
   RunControl control;
   StillFinger* finger = nullptr;
+  test::Commands* rendering = nullptr;
   Objects* objects = nullptr;
   DeviceOutput* output = nullptr;
   Graph graph;
@@ -124,6 +125,24 @@ TEST(DeviceOutput, WhatIsOldFollowsFromTheRateOfItsWriter) {
       EXPECT_LT(rig.finger->force.x(), 3) << rate << " Hz: its writer has stopped";
     }
   }
+}
+
+// A rendering that computes no contact in a tick: its last force is not used again; the force goes down from 4 N at
+// 1 N/ms, and comes back softly.
+TEST(DeviceOutput, AContactOfAnEarlierTickTakesTheForceDown) {
+  Rig rig;
+  rig.run(1000);
+  rig.rendering->stalled = true;
+  for (const double force : {3., 2., 1., 0.}) {
+    rig.run(1);
+    EXPECT_NEAR(rig.finger->force.x(), force, 1e-9);
+  }
+  rig.run(100);
+  EXPECT_EQ(rig.finger->force.norm(), 0);
+  rig.rendering->stalled = false;
+  rig.run(1000);
+  EXPECT_NEAR(rig.finger->force.x(), 4, 1e-9);
+  EXPECT_LE(rig.finger->steepest, kSlew);
 }
 
 // A device that gives no sample: the force is held for a tick and is zero at 5 ms, from 4 N at 1 N/ms; softly back with

@@ -15,11 +15,13 @@ class Commands final : public Module {
     out.value = ContactExchange(1);
   }
   void step(const Tick& tick) noexcept override {
+    if (stalled) return;
     out.value.time = tick.time;
     out.value.fingers[0].f_H_W = wanted.f;
     out.value.fingers[0].t_H_W = wanted.t;
   }
   Wrench wanted;
+  bool stalled = false;  ///< keeps the last contact, with its old time
   Out<ContactExchange> out{*this, "contact_exchange"};
 };
 
