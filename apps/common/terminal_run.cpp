@@ -1,9 +1,12 @@
 #include "apps/common/terminal_run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <optional>
 
 #include "apps/common/assembly_observer.h"
@@ -29,6 +32,7 @@ namespace {
 std::atomic<RunControl*> signalled{nullptr};
 std::atomic<bool> interrupted{false};
 std::atomic<std::int64_t> first_signal_ns{0};
+std::atomic<const char*> answer{nullptr};  // printed at once by a run that cannot end at once; null: no words
 
 extern "C" void onSignal(int) {
   RunControl* control = signalled.load();
@@ -36,7 +40,11 @@ extern "C" void onSignal(int) {
   // one key press may arrive twice, at the process and at its group: only a later signal ends the run at once
   const std::int64_t now = monotonicNs();
   std::int64_t first = 0;
-  if (!first_signal_ns.compare_exchange_strong(first, now) && now - first > 500'000'000) control->abort = true;
+  if (!first_signal_ns.compare_exchange_strong(first, now)) {
+    if (now - first > 500'000'000) control->abort = true;
+  } else if (const char* words = answer; words != nullptr) {
+    (void)!::write(STDERR_FILENO, words, std::strlen(words));
+  }
   control->stop_requested = true;
   interrupted = true;
   terminal::PromptEnd::ask();
@@ -45,9 +53,10 @@ extern "C" void onSignal(int) {
 /// During its lifetime, Ctrl-C, SIGTERM and SIGHUP stop the run instead of the process.
 class SignalGuard {
  public:
-  explicit SignalGuard(RunControl& control) : signals_(onSignal) {
+  SignalGuard(RunControl& control, const char* words) : signals_(onSignal) {
     interrupted = false;
     first_signal_ns = 0;
+    answer = words;
     signalled = &control;
   }
   ~SignalGuard() { signalled = nullptr; }
@@ -238,8 +247,15 @@ void TerminalRun::noteCommands() {
     result_.notes.push_back("… and " + std::to_string(more) + " more commands");
 }
 
+const char* TerminalRun::answerToSignal() const {
+  if (settings_.quiet) return nullptr;
+  if (run_->options().realtime) return "\nstopping: forces fade to zero\n";
+  if (!run_->options().video.empty()) return "\nstopping: the video is completed\n";
+  return nullptr;
+}
+
 void TerminalRun::execute() {
-  const SignalGuard guard(control_);
+  const SignalGuard guard(control_, answerToSignal());
   live_->start_ns = monotonicNs();
   result_.started = localNow();
   for (const std::string& note : result_.notes) live_->line.note(note);

@@ -61,6 +61,7 @@ class TerminalRun {
   void noteModules();
   void noteCommands();
   void noteGuide();
+  const char* answerToSignal() const;
   void awaitGuide();
 
   std::vector<std::unique_ptr<Module>> observers(const Loaded& loaded);

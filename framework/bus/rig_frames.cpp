@@ -26,7 +26,7 @@ Rig rigOf(const RunInfo& run, const Scene& scene) {
     Frame& frame = rig.frames.emplace_back();
     frame.name = sent.name;
     frame.parent = sent.parent;
-    if (sent.zooms) frame.zoom.emplace();
+    if (sent.zooms) frame.zoom = Frame::Zoom{};
   }
   for (std::size_t f = 0; f < scene.devices.size() && f < run.places.size(); ++f) {
     DeviceBinding& device = rig.devices.emplace_back();

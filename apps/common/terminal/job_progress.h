@@ -19,6 +19,7 @@ class JobProgress {
 
   void done(const std::string& what);
   void more(std::size_t jobs) { jobs_ += jobs; }
+  void fewer(std::size_t jobs) { jobs_ -= jobs; }
   /// Sets the expected remaining time; without it, every job is assumed to last as long as those before.
   void expect(double seconds_left);
   void show();

@@ -6,6 +6,7 @@
 
 #include "apps/common/number_text.h"
 #include "apps/common/summary.h"
+#include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
 #include "apps/common/terminal_run.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -20,17 +21,31 @@ using terminal::format;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTraceRate = 250;  // as `presa run`
 
-json summaryOf(const std::string& scene, const Sets& sets) {
-  Diagnostics diagnostics;
-  RunOptions options;
-  options.duration = 0;  // to the end of the script
-  options.bound_stiffness = true;
-  Loaded loaded = loadWorld({scene, "", sets}, options, diagnostics);
-  if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  TerminalRun run(std::move(loaded), {.trace_rate = kTraceRate, .quiet = true, .command = ""});
-  run.execute();
-  return json::parse(summaryJson(run.result()));
-}
+/// Runs of one comparison, one after the other, with their progress.
+class Runs {
+ public:
+  explicit Runs(const std::string& scene) : scene_(scene), progress_(0) {}
+
+  void expect(std::size_t runs) { progress_.more(runs); }
+  void leaveOut(std::size_t runs) { progress_.fewer(runs); }
+  json summary(const Sets& sets) {
+    Diagnostics diagnostics;
+    RunOptions options;
+    options.duration = 0;  // to the end of the script
+    options.bound_stiffness = true;
+    Loaded loaded = loadWorld({scene_, "", sets}, options, diagnostics);
+    if (diagnostics.hasErrors()) throw InputError(diagnostics);
+    TerminalRun run(std::move(loaded), {.trace_rate = kTraceRate, .quiet = true, .command = ""});
+    run.execute();
+    if (run.result().interrupted || terminal::JobProgress::interrupted()) throw Stopped();
+    progress_.done(sets.empty() ? "as printed" : sets.front());
+    return json::parse(summaryJson(run.result()));
+  }
+
+ private:
+  const std::string& scene_;
+  terminal::JobProgress progress_;
+};
 
 double at(const json& value, const char* pointer) {
   const json::json_pointer where(pointer);
@@ -61,44 +76,52 @@ std::vector<std::vector<double>> gridOf(const std::vector<PrintedValues>& vary) 
 }
 
 /// The last value at which the object is held, with these overrides; `min_mass`: of that run, if there is one.
-std::optional<double> lastHeld(const std::string& scene, const UntilLost& lost, const Sets& methods,
-                               double* min_mass = nullptr) {
+std::optional<double> lastHeld(Runs& runs, const UntilLost& lost, const Sets& methods, double* min_mass = nullptr) {
   std::optional<double> held;
+  std::size_t left = lost.values.size();
   for (const double value : lost.values) {
-    const Grasp grasp = graspOf(summaryOf(scene, lost.sets + methods + Sets{setOf(lost, value)}));
+    const Grasp grasp = graspOf(runs.summary(lost.sets + methods + Sets{setOf(lost, value)}));
+    --left;
     if (!grasp.held) break;
     held = value;
     if (min_mass != nullptr) *min_mass = grasp.min_mass;
   }
+  runs.leaveOut(left);
   return held;
 }
 
-void runCells(Comparison& comparison) {
+void runCells(Runs& runs, Comparison& comparison) {
   const Printed& print = comparison.print;
   if (print.vary.empty()) return;
   for (const std::vector<double>& values : gridOf(print.vary)) {
     Sets sets;
     for (std::size_t i = 0; i < values.size(); ++i) sets.push_back(setOf(print.vary[i], values[i]));
-    comparison.cells.push_back(
-        {values, graspOf(summaryOf(comparison.scene, sets)), graspOf(summaryOf(comparison.scene, sets + print.today))});
+    comparison.cells.push_back({values, graspOf(runs.summary(sets)), graspOf(runs.summary(sets + print.today))});
   }
 }
 
-void runUntilLost(Comparison& comparison) {
+void runUntilLost(Runs& runs, Comparison& comparison) {
   if (!comparison.print.until_lost) return;
   const UntilLost& lost = *comparison.print.until_lost;
   Lasting& lasting = comparison.lasting.emplace();
   lasting.min_mass = kNone;
-  lasting.printed = lastHeld(comparison.scene, lost, {});
-  lasting.today = lastHeld(comparison.scene, lost, comparison.print.today, &lasting.min_mass);
+  lasting.printed = lastHeld(runs, lost, {});
+  lasting.today = lastHeld(runs, lost, comparison.print.today, &lasting.min_mass);
 }
 
-void runAlone(Comparison& comparison) {
+void runAlone(Runs& runs, Comparison& comparison) {
   for (const std::string& set : comparison.print.today) {
-    Alone alone{set, graspOf(summaryOf(comparison.scene, {set})), {}};
-    if (comparison.print.until_lost) alone.lasting = lastHeld(comparison.scene, *comparison.print.until_lost, {set});
+    Alone alone{set, graspOf(runs.summary({set})), {}};
+    if (comparison.print.until_lost) alone.lasting = lastHeld(runs, *comparison.print.until_lost, {set});
     comparison.alone.push_back(std::move(alone));
   }
+}
+
+/// Number of runs, if nothing is lost until the last value.
+std::size_t runCount(const Printed& print) {
+  const std::size_t until_lost = print.until_lost ? print.until_lost->values.size() : 0;
+  const std::size_t cells = print.vary.empty() ? 0 : gridOf(print.vary).size();
+  return 2 + 2 * cells + 2 * until_lost + print.today.size() * (1 + until_lost);
 }
 
 /// "0.044 to 0.244", of the cells.
@@ -191,12 +214,13 @@ Comparison compare(const std::string& scene) {
            "such a file lies in the folder 'printed' beside the scene and has its name; config/scenes/percro_2006.xml "
            "has one");
   Comparison comparison{scene, std::move(*print), {}, {}, {}, {}, {}};
-  const Sets& today = comparison.print.today;
-  comparison.printed = summaryOf(scene, {});
-  comparison.today = summaryOf(scene, today);
-  runCells(comparison);
-  runUntilLost(comparison);
-  runAlone(comparison);
+  Runs runs(scene);
+  runs.expect(runCount(comparison.print));
+  comparison.printed = runs.summary({});
+  comparison.today = runs.summary(comparison.print.today);
+  runCells(runs, comparison);
+  runUntilLost(runs, comparison);
+  runAlone(runs, comparison);
   return comparison;
 }
 

@@ -57,7 +57,11 @@ struct Comparison {
   std::vector<std::string> sentences() const;
 };
 
-/// Runs everything. Throws InputError for a scene that cannot be loaded or has no file of printed figures (E619).
+/// Ctrl-C, SIGTERM or SIGHUP came during a run.
+struct Stopped {};
+
+/// Runs everything, with progress on stderr. Throws InputError for a scene that cannot be loaded or has no file of
+/// printed figures (E619), and Stopped.
 Comparison compare(const std::string& scene);
 
 }  // namespace presa::printed

@@ -40,9 +40,16 @@ void addPrinted(Command app, int& status) {
   command.option("SCENE", a->scene, "scene with a file of printed figures: config/scenes/percro_2006.xml").required();
   command.option("--out", a->out, "folder for report.html and grid.csv (default: printed_SCENE)");
   command.footer(
-      "Exit status: 0 today's methods hold every grasp of the grid, 1 they lose some, 2 bad input.\n"
+      "Exit status: 0 today's methods hold every grasp of the grid, 1 they lose some, 2 bad input, 130 Ctrl-C.\n"
       "Example:  presa printed config/scenes/percro_2006.xml --out out/percro_2006");
-  command.action([a, &status] { status = runPrinted(*a); });
+  command.action([a, &status] {
+    try {
+      status = runPrinted(*a);
+    } catch (const printed::Stopped&) {
+      std::fputs("stopped; nothing was written\n", stderr);
+      status = kExitInterrupted;
+    }
+  });
 }
 
 }  // namespace presa

@@ -235,5 +235,18 @@ TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
   for (int f = 0; f < 2; ++f) EXPECT_EQ(recording.command.back().f_H_W[static_cast<std::size_t>(f)].norm(), 0);
 }
 
+// The forces fade for 150 ms, and a video is completed: the user reads at once what is waited for.
+TEST(Interrupt, IsAnsweredBeforeTheRunHasEnded) {
+  const std::string video = scratch("interrupted.mp4"),
+                    begin = "timeout --foreground --preserve-status -s TERM 2 " + std::string(PRESA_BINARY_DIR) +
+                            "/bin/presa run " + kCubeScene;
+  const auto live = test::shell(begin + " --realtime --view none");
+  EXPECT_EQ(live.status, 130) << live.err;
+  EXPECT_NE(live.err.find("\nstopping: forces fade to zero\n"), std::string::npos) << live.err;
+  const auto filmed = test::shell(begin + " --lockstep --overwrite --video " + video);
+  EXPECT_EQ(filmed.status, 130) << filmed.err;
+  EXPECT_NE(filmed.err.find("\nstopping: the video is completed\n"), std::string::npos) << filmed.err;
+}
+
 }  // namespace
 }  // namespace presa

@@ -125,6 +125,17 @@ TEST(Printed, TheCommandWritesAPageAndTheGrid) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);  // head, and two methods for two masses
 }
 
+// Each of its seventy runs stops at a signal by itself: the next one must not begin.
+TEST(Printed, EndsAtASignal) {
+  const std::string out = scratch("interrupted");
+  const auto outcome = test::shell("timeout --foreground --preserve-status -k 20 -s TERM 1 " +
+                                   std::string(PRESA_BINARY_DIR) + "/bin/presa-printed " +
+                                   source("config/scenes/percro_2006.xml") + " --out " + out);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_NE(outcome.err.find("stopped; nothing was written"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(Printed, SaysWhatIsWrongWithAFile) {
   const std::string scene = cubeWithPrint("bad", R"(<printed version="1.0" source="p">
 <figure what="a" where="b" printed="c" mesure="/grasp/slip_limit_N"/></printed>)");
