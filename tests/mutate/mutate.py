@@ -46,14 +46,14 @@ class Mutant:
         stop(f"tests/mutate/operators.py names no tests for {self.file}")
 
 
-def chosen(word):
+def chosen(words):
     mutants = [Mutant("safety", m) for m in SAFETY] + [Mutant("core", m) for m in CORE]
     stale = [f"{mutant.file} has this {mutant.count()} times:  {mutant.old}" for mutant in mutants if mutant.count() != 1]
     if stale:  # also where only some are asked for, so that the list stays true
         stop("tests/mutate/operators.py: a fragment is to be in its file once, and\n  " + "\n  ".join(stale))
     for mutant in mutants:
         mutant.programs()
-    return [m for m in mutants if word in str(m)]
+    return [m for m in mutants if not words or any(word in str(m) for word in words)]
 
 
 # ---- the copy ------------------------------------------------------------------------------------------------------
@@ -118,6 +118,10 @@ def sees(name):
     return f"{name}: {failed[0].rstrip(',')}" if failed else f"{name}: ended with {ran.returncode}"
 
 
+class DoesNotBuild(Exception):
+    """The operator is wrong, not a test."""
+
+
 def tried(mutant):
     """What sees it; None: nothing does."""
     path = SCRATCH / mutant.file
@@ -127,7 +131,7 @@ def tried(mutant):
         for name in mutant.programs():
             made = build([name])
             if made.returncode != 0:
-                stop(f"this mutant does not build:\n{mutant}\n{made.stdout[-3000:]}")
+                raise DoesNotBuild(made.stdout[-3000:])
             if seen := sees(name):
                 return seen
         return None
@@ -155,20 +159,25 @@ def main():
     words = sys.argv[1:]
     listing = "--list" in words
     words = [word for word in words if word != "--list"]
-    if len(words) > 1 or any(word.startswith("-") for word in words):
-        stop("usage: ./dev mutate [--list] [FILTER]")
-    mutants = chosen(words[0] if words else "")
+    if any(word.startswith("-") for word in words):
+        stop("usage: ./dev mutate [--list] [FILTER…]")
+    mutants = chosen(words)
     if not mutants:
-        stop(f"no fault matches '{words[0]}'")
+        stop(f"no fault matches '{' or '.join(words)}'")
     if listing:
         print(*mutants, sep="\n")
         print(f"{len(mutants)} faults")
         return 0
     make_copy()
     check_unharmed(mutants)
-    begin, survivors, count = time.monotonic(), [], {kind: [0, 0] for kind in NEEDED}
+    begin, survivors, broken, count = time.monotonic(), [], [], {kind: [0, 0] for kind in NEEDED}
     for number, mutant in enumerate(sorted(mutants, key=lambda m: (m.kind != "safety", m.file)), 1):
-        seen = tried(mutant)
+        try:
+            seen = tried(mutant)
+        except DoesNotBuild as error:
+            broken.append(mutant)
+            print(f"DOES NOT BUILD  {mutant}\n{error}", flush=True)
+            continue
         count[mutant.kind][1] += 1
         count[mutant.kind][0] += seen is not None
         if seen is None:
@@ -177,11 +186,11 @@ def main():
         left = passed / number * (len(mutants) - number)
         print(f"[{number}/{len(mutants)}, {clock(left)} left] {'caught' if seen else 'SURVIVOR'}  {mutant}"
               + (f"\n    by {seen}" if seen else ""), flush=True)
-    return summary(count, survivors)
+    return summary(count, survivors, broken)
 
 
-def summary(count, survivors):
-    short = False
+def summary(count, survivors, broken):
+    short = bool(broken)
     print()
     for kind, (caught, all_of_them) in count.items():
         if all_of_them == 0:
@@ -191,6 +200,8 @@ def summary(count, survivors):
         print(f"{kind}: {caught} of {all_of_them} caught, {100 * share:.1f} % ({100 * NEEDED[kind]:.0f} % needed)")
     if survivors:
         print("survivors:", *survivors, sep="\n  ")
+    if broken:
+        print("do not build:", *broken, sep="\n  ")
     return 1 if short else 0
 
 

@@ -143,7 +143,7 @@ CORE = [
     (CLOSEST, "static constexpr double kSliverSine = 1e-4;", "static constexpr double kSliverSine = 0;"),
     (SLIVER, "if (!(along < length_squared)) return b;", ""),
     (MASS, "result.volume * offset * offset.transpose()", "0 * offset * offset.transpose()"),
-    (MASS, "std::swap(neighbours[0], neighbours[2]);", ""),
+    (MASS, "std::swap(neighbours[0], neighbours[2]);", "(void)neighbours;"),
     # rotation and the integrators
     (ROTATION, "x += s / 6 * (k1 + 2 * k2 + 2 * k3 + k4);", "x += s / 6 * (k1 + 2 * k2 + k3 + 2 * k4);"),
     (ROTATION, "x + s * k3,", "x + 0.5 * s * k3,"),

@@ -28,16 +28,16 @@ class StillFinger final : public Device {
 };
 
 struct Rig {
-  explicit Rig(const Rates& scene = {}) : rates(scene) {
-    devices.push_back(std::make_unique<StillFinger>());
+  explicit Rig(const Rates& scene = {}, std::size_t fingers = 1) : rates(scene) {
+    while (devices.size() < fingers) devices.push_back(std::make_unique<StillFinger>());
     finger = static_cast<StillFinger*>(devices[0].get());
     GraphBuilder builder;
     builder.add(std::make_unique<DeviceInput>(devices, control));
-    rendering = &builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0)));
+    rendering = &builder.add(std::make_unique<test::Commands>(Vec3(4, 0, 0), fingers));
     objects = &builder.add(std::make_unique<Objects>());
     builder.add(std::make_unique<Neighbourhoods>());
     output = &builder.add(std::make_unique<DeviceOutput>(
-        devices, std::vector<FingerSafety>{{.limits = {}, .watchdog = ages::objects(scene)}}, scene, false));
+        devices, std::vector<FingerSafety>(fingers, {.limits = {}, .watchdog = ages::objects(scene)}), scene, false));
     builder.connectByName();
     graph = builder.build();
   }
@@ -161,6 +161,21 @@ TEST(DeviceOutput, ASilentDeviceIsAtZeroAfterFiveMilliseconds) {
   rig.run(100);
   EXPECT_NEAR(rig.finger->force.x(), 4 * 0.1 / 0.5, 1e-9);
   EXPECT_LE(rig.finger->steepest, kSlew);
+}
+
+// A grasp must not close on a hand whose other finger went slack: the fault is the other's, the force of both goes.
+TEST(DeviceOutput, ALostDeviceTakesTheForceOfTheOtherFingers) {
+  Rig rig({}, 2);
+  auto& other = static_cast<StillFinger&>(*rig.devices[1]);
+  rig.run(1000);
+  EXPECT_NEAR(other.force.x(), 4, 1e-9);
+  rig.finger->lost = true;
+  rig.run(30);
+  EXPECT_EQ(other.force.norm(), 0);
+  rig.finger->lost = false;
+  rig.run(1000);
+  EXPECT_EQ(other.force.norm(), 0);
+  EXPECT_LE(other.steepest, kSlew);
 }
 
 // A device that is lost and comes back has no force until a re-arm, and then starts softly.

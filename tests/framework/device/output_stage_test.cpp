@@ -221,6 +221,14 @@ TEST(OutputStage, ALostDeviceStaysAtZeroUntilRearmed) {
 }
 
 // The other fingers' forces go to zero, too, with a status that names another finger.
+// Its square overflows. It is as large as the limit, in the direction that was asked for.
+TEST(OutputStage, AHugeCommandKeepsItsDirection) {
+  OutputStage stage(kLimits);
+  const Vec3 force = settle(stage, {3e200, 4e200, 0});
+  EXPECT_NEAR(force.norm(), kLimits.force, 1e-9);
+  EXPECT_NEAR(force.x() / force.y(), 0.75, 1e-12);
+}
+
 TEST(OutputStage, AnotherFingersLostDeviceLatchesToo) {
   OutputStage stage(kLimits);
   settle(stage, {4, 0, 0});

@@ -8,17 +8,20 @@
 // Test modules that replace the modules before the output stage.
 namespace presa::test {
 
-/// Replaces the rendering: commands a given wrench.
+/// Replaces the rendering: commands a given wrench to every finger.
 class Commands final : public Module {
  public:
-  explicit Commands(const Wrench& wish = {}) : Module("rendering", RateGroup::kHaptic), wanted(wish) {
-    out.value = ContactExchange(1);
+  explicit Commands(const Wrench& wish = {}, std::size_t fingers = 1)
+      : Module("rendering", RateGroup::kHaptic), wanted(wish) {
+    out.value = ContactExchange(fingers);
   }
   void step(const Tick& tick) noexcept override {
     if (stalled) return;
     out.value.time = tick.time;
-    out.value.fingers[0].f_H_W = wanted.f;
-    out.value.fingers[0].t_H_W = wanted.t;
+    for (auto& finger : out.value.fingers) {
+      finger.f_H_W = wanted.f;
+      finger.t_H_W = wanted.t;
+    }
   }
   Wrench wanted;
   bool stalled = false;  ///< keeps the last contact, with its old time
