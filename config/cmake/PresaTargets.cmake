@@ -33,9 +33,8 @@ target_link_libraries(presa_options INTERFACE Eigen3::Eigen Boost::headers Threa
 if(PRESA_SANITIZE)
   # The first finding ends the program: code that goes on after one takes a third more time to compile. Checks of each pointer for null
   # and alignment would double that time: the address sanitizer stops at null as well, and Eigen asserts its alignment.
-  # With them GCC 12 takes std::regex for uninitialised, wrongly.
   target_compile_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE} -fno-sanitize-recover=all -fno-sanitize=null,alignment
-                         -fno-omit-frame-pointer $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>>)
+                         -fno-omit-frame-pointer)
   target_link_options(presa_options INTERFACE -fsanitize=${PRESA_SANITIZE})
 endif()
 

@@ -36,7 +36,7 @@ SAFETY = [
     # the output stage
     (STAGE, "clampMagnitude(wanted, part.max, kOutputMagnitude)", "clampMagnitude(wanted, 1e9, kOutputMagnitude)"),
     (STAGE, "if (const double norm = force.norm(); norm > max) {", "if (const double norm = force.norm(); norm > 1e9) {"),
-    (STAGE, "largest > max) {\n    force *= max / largest;", "largest > 1e9) {\n    force *= max / largest;"),
+    (STAGE, "largest > max) {\n    force *= max / largest;", "false) {\n    force *= max / largest;"),
     (STAGE, "if (!input.command.f.allFinite() || !input.command.t.allFinite()) latches_ |= kOutputNotFinite;", ""),
     (STAGE, "if (input.lost) latches_ |= kOutputLost;", ""),
     (STAGE, "if (input.other_lost) latches_ |= kOutputOther;", ""),

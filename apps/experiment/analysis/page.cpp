@@ -1,5 +1,7 @@
 #include "apps/common/report/page.h"
-#include <regex>
+
+#include <algorithm>
+#include <string_view>
 
 #include "apps/common/report/html.h"
 #include "apps/common/report/svg_plot.h"
@@ -15,8 +17,22 @@ using terminal::format;
 
 /// Turns exponents, written x^0.5, into superscripts.
 std::string sentenceHtml(const std::string& sentence) {
-  static const std::regex exponent("\\^((?:−|-)?[0-9.]+)");
-  return std::regex_replace(escape(sentence), exponent, "<sup>$1</sup>");
+  const std::string text = escape(sentence);
+  std::string html;
+  std::size_t done = 0;
+  for (std::size_t at = text.find('^'); at != std::string::npos; at = text.find('^', at + 1)) {
+    std::size_t digits = at + 1;
+    for (const std::string_view minus : {"−", "-"}) {
+      if (text.compare(digits, minus.size(), minus) != 0) continue;
+      digits += minus.size();
+      break;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.", digits), text.size());
+    if (end == digits) continue;
+    html += text.substr(done, at - done) + "<sup>" + text.substr(at + 1, end - at - 1) + "</sup>";
+    done = end;
+  }
+  return html + text.substr(done);
 }
 
 std::string banner(const Trials& trials) {
