@@ -142,6 +142,14 @@ TEST_F(AnalysisTest, SaysWhatIsLeftOut) {
   EXPECT_THAT(reportHtml(result), HasSubstr("1 of 1 sessions are not finished"));
 }
 
+// Exponents are superscripts on the page; a ^ without a number stays.
+TEST(AnalysisPage, HasExponentsAsSuperscripts) {
+  Result result;
+  result.sections.emplace_back().finding = {"F = 2.1 · mass^0.85 · friction^−1.2 & x^-3, y^z ^"};
+  EXPECT_THAT(reportHtml(result), HasSubstr("<p>F = 2.1 · mass<sup>0.85</sup> · friction<sup>−1.2</sup> &amp; "
+                                            "x<sup>-3</sup>, y^z ^</p>"));
+}
+
 // With fewer than 8 subjects there is no statement about a population; from 8 on there is an interval over subjects.
 TEST_F(AnalysisTest, IntervalOverSubjectsFromEightOn) {
   const std::string spearman = R"(<spearman y="F_grip" x="mass" permutations="0"/>)";
