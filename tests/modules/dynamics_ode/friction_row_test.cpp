@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "modules/dynamics_ode/finger_constraint.h"
 #include "tests/modules/dynamics_ode/support.h"
@@ -52,6 +53,38 @@ TEST(FrictionRow, ContinuesTheRenderedForceWithTheLawsStiffnessAndDamping) {
         }
       }
     }
+  }
+}
+
+// The normal row in the same way: k times the depth at the end of the step, and d times the closing velocity.
+TEST(FingerRow, IsSpringAndDamperAtTheEndOfTheStep) {
+  for (const double h : {0.005, 0.001}) {
+    for (const double damping : {0.0, 3.0}) {
+      FingerContact contact = contactOf(1, 0, 0, 0);
+      contact.damping = damping;
+      for (const double v_H : {0.0, 0.02}) {
+        contact.v_WH = Vec3(0, 0, -v_H);
+        const auto row = makeFingerConstraint(contact, Vec3::Zero(), {}, 0, 0.02, h);
+        ASSERT_TRUE(row);
+        for (const double v_P : {0.0, -0.03, 0.05}) {  // along -z, into the body
+          const double f = (row->erp / h * row->depth + row->motion_n - row->n_in.dot(Vec3(0, 0, -v_P))) / row->cfm;
+          EXPECT_NEAR(f, kNormal + (h * kK + damping) * (v_H - v_P), 1e-9) << h << " " << damping << " " << v_P;
+        }
+      }
+    }
+  }
+}
+
+TEST(FrictionRow, IsBoundedByTheFrictionOfItsMode) {
+  FingerContact contact = contactOf(1, 0, kForce, 0);
+  contact.friction_static = 0.8;
+  contact.friction_dynamic = 0.3;
+  for (const auto& [mode, mu] : {std::pair(ContactMode::kStick, 0.8), std::pair(ContactMode::kSlip, 0.3)}) {
+    contact.mode = mode;
+    const auto row = makeFingerConstraint(contact, Vec3::Zero(), {}, 0, 0.02, 0.005);
+    ASSERT_TRUE(row);
+    EXPECT_EQ(row->mu, mu);
+    EXPECT_EQ(row->mu_dynamic, 0.3);
   }
 }
 

@@ -177,6 +177,28 @@ TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
   EXPECT_GT(worst_faceted, 0.1);  // without shading the facets are 6 degrees off
 }
 
+// Friction turns with the normal: it stays across it, as large as without shading.
+TEST(Shading, LeavesFrictionAcrossTheTurnedNormal) {
+  World world = test::worldOf(MeshRef{});
+  world.meshes[0].haptic = std::make_shared<const TriMesh>(makeSphere(0.03, 1));
+  world.scene.materials[0].friction_static = world.scene.materials[0].friction_dynamic = 1;
+  OneFinger faceted(world);
+  world.scene.bodies[0].haptic->smooth = true;
+  OneFinger smooth(world);
+  double turned = 0;
+  for (int i = -1; i < 200; ++i) {
+    const double a = 0.3 + (i < 0 ? 0 : 1e-4 * i);  // slides by less than friction holds
+    const Vec3 p_WH = (i < 0 ? 0.05 : 0.033) * Vec3(std::sin(a), 0.3, std::cos(a)).normalized();
+    const FingerContact f = faceted.tick(p_WH), s = smooth.tick(p_WH);
+    if (i < 0) continue;
+    ASSERT_EQ(s.mode, ContactMode::kStick) << i;
+    ASSERT_NEAR(s.tangential_force_W.dot(s.nhat_W), 0, 1e-9) << i;
+    ASSERT_NEAR(s.tangential_force_W.norm(), f.tangential_force_W.norm(), 1e-9) << i;
+    if (i > 100) turned = std::max(turned, std::abs(f.tangential_force_W.dot(s.nhat_W)));
+  }
+  EXPECT_GT(turned, 0.01);  // without the turn it would not lie across
+}
+
 // In one tick the fingertip goes off a thin plate and round its edge to below it. The straight line between the two
 // places crosses the plate; its path does not, and shading must not hide the path from the test for pop-through.
 TEST(Shading, CountsNoPopThroughOnAWayRoundAnEdge) {
