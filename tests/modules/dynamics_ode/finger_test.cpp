@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "tests/modules/dynamics_ode/support.h"
 
 namespace presa::ode {
@@ -117,6 +119,23 @@ TEST(Finger, SlippingForceIsMuTimesNormalForceInEveryDirection) {
     EXPECT_NEAR(f.z(), -k * depth, 1e-5 * k * depth);
     EXPECT_NEAR(f.head<2>().norm(), mu * k * depth, 1e-5 * k * depth) << heading;
     EXPECT_NEAR(degrees(std::atan2(f.y(), f.x())), heading, 1e-4);
+  }
+}
+
+// A contact that sticks at the sample and is pulled past its static bound within the step slips in it: mu_d N, not mu_s N.
+TEST(Finger, PulledPastTheStaticBoundSlipsWithinTheStep) {
+  const double k = 1000, depth = 0.002;
+  WorldMaker maker;
+  maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
+  for (const auto& [pulled, force] : {std::pair(0.9, 0.9), std::pair(1.1, 0.5)}) {  // of the static bound
+    Runner runner(maker.world());
+    std::vector<ReferenceFinger> fingers{{0, {0, 0, kEdge / 2}, Vec3::UnitZ()}};
+    fingers[0].stiffness = k;
+    fingers[0].mu_static = 1;
+    fingers[0].mu_dynamic = 0.5;
+    fingers[0].p_WH = fingers[0].p_BP - depth * Vec3(pulled, 0, 1);
+    runner.step(exchangeOf(fingers, runner));
+    EXPECT_NEAR(-runner.bodies.fingerForce(0).x(), force * k * depth, 1e-5 * k * depth) << pulled;  // towards the HIP
   }
 }
 
