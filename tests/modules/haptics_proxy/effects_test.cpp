@@ -177,6 +177,24 @@ TEST(Shading, TurnsTheForceIntoTheInterpolatedNormal) {
   EXPECT_GT(worst_faceted, 0.1);  // without shading the facets are 6 degrees off
 }
 
+// At a corner of a cube three faces meet in four or five triangles. Weighted by their angles, the faces count alike, so
+// the normal of the corner is its diagonal; 0.1 mm beside the corner it is within 0.01 of it.
+TEST(Shading, WeighsTheTrianglesOfACornerByTheirAngles) {
+  constexpr double kHalf = 0.05, kBeside = 1e-4;
+  World world = test::worldOf(MeshRef{});
+  world.meshes[0].haptic = std::make_shared<const TriMesh>(makeBox(Vec3::Constant(2 * kHalf)));
+  world.scene.bodies[0].haptic->smooth = true;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      OneFinger finger(world);
+      const Vec3 above(x * (kHalf - kBeside), y * (kHalf - kBeside), kHalf + kR);
+      finger.tick(above + Vec3(0, 0, 0.01));
+      const Vec3 nhat = finger.tick(above - Vec3(0, 0, 1e-3)).nhat_W;
+      EXPECT_NEAR((nhat - Vec3(x, y, 1).normalized()).norm(), 0, 0.01) << nhat.transpose();
+    }
+  }
+}
+
 // Friction turns with the normal: it stays across it, as large as without shading.
 TEST(Shading, LeavesFrictionAcrossTheTurnedNormal) {
   World world = test::worldOf(MeshRef{});
