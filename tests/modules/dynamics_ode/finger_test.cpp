@@ -127,15 +127,22 @@ TEST(Finger, PulledPastTheStaticBoundSlipsWithinTheStep) {
   const double k = 1000, depth = 0.002;
   WorldMaker maker;
   maker.gravity(Vec3::Zero()).add(Box{kCube}, {}, {1e9, Vec3::Zero(), 1e9 * Mat3::Identity()});
-  for (const auto& [pulled, force] : {std::pair(0.9, 0.9), std::pair(1.1, 0.5)}) {  // of the static bound
-    Runner runner(maker.world());
-    std::vector<ReferenceFinger> fingers{{0, {0, 0, kEdge / 2}, Vec3::UnitZ()}};
-    fingers[0].stiffness = k;
-    fingers[0].mu_static = 1;
-    fingers[0].mu_dynamic = 0.5;
-    fingers[0].p_WH = fingers[0].p_BP - depth * Vec3(pulled, 0, 1);
-    runner.step(exchangeOf(fingers, runner));
-    EXPECT_NEAR(-runner.bodies.fingerForce(0).x(), force * k * depth, 1e-5 * k * depth) << pulled;  // towards the HIP
+  using Solver = DynamicsSettings::Solver;
+  for (const Solver solver : {Solver::kAuto, Solver::kDirect, Solver::kIterative, Solver::kNewton}) {
+    OdeOptions options;
+    options.method.solver = solver;
+    for (const auto& [pulled, force] : {std::pair(0.9, 0.9), std::pair(1.1, 0.5)}) {  // of the static bound
+      Runner runner(maker.world(), options);
+      std::vector<ReferenceFinger> fingers{{0, {0, 0, kEdge / 2}, Vec3::UnitZ()}};
+      fingers[0].stiffness = k;
+      fingers[0].mu_static = 1;
+      fingers[0].mu_dynamic = 0.5;
+      fingers[0].p_WH = fingers[0].p_BP - depth * Vec3(pulled, 0, 1);
+      runner.step(exchangeOf(fingers, runner));
+      // on the body, towards the HIP
+      EXPECT_NEAR(-runner.bodies.fingerForce(0).x(), force * k * depth, 1e-5 * k * depth)
+          << pulled << ", solver " << static_cast<int>(solver);
+    }
   }
 }
 
