@@ -1,5 +1,7 @@
 #include "apps/common/terminal/interruption.h"
 
+#include <unistd.h>
+
 #include "apps/common/terminal/prompt_end.h"
 
 namespace presa::terminal {
@@ -7,6 +9,8 @@ namespace {
 
 volatile std::sig_atomic_t signal_came = 0;
 extern "C" void noteSignal(int) {
+  static constexpr char kAnswer[] = "\nstopping\n";  // the step that runs now may take a while
+  if (signal_came == 0) (void)!::write(STDERR_FILENO, kAnswer, sizeof kAnswer - 1);
   signal_came = 1;
   PromptEnd::ask();
 }

@@ -19,8 +19,8 @@ class EndSignals {
   std::array<struct sigaction, 3> old_{};
 };
 
-/// During its lifetime, these signals are noted instead of ending the process; a current run is asked to stop
-/// (PromptEnd).
+/// During its lifetime, these signals are noted instead of ending the process, and the first is answered on stderr at
+/// once; a current run is asked to stop (PromptEnd).
 /// Thread: main; one at a time.
 class Interruption {
  public:

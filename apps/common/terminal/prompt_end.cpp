@@ -11,8 +11,8 @@
 namespace presa::terminal {
 namespace {
 
-constexpr std::int64_t kFadeNs = 50'000'000;  // wall-clock time for the fade of a run in virtual time
-constexpr std::int64_t kStuckNs = 80'000'000;
+constexpr std::int64_t kFadeNs = 40'000'000;  // wall-clock time for the fade of a run in virtual time
+constexpr std::int64_t kStuckNs = 65'000'000;
 // processor time of all threads together, which sleep for most of the fade
 constexpr std::int64_t kStuckLiveNs = 300'000'000;
 constexpr int kInterrupted = 130;

@@ -6,7 +6,7 @@
 namespace presa::terminal {
 
 /// Around Executor::run: a run that a signal stops ends within 100 ms. Forces fade first, in virtual time for at most
-/// 50 ms of the clock. If the run is then still in a long step, the process ends in the middle of it with status 130;
+/// 40 ms of the clock. If the run is then still in a long step, the process ends in the middle of it with status 130;
 /// files then hold the same as after a kill (all data up to the last flush, every record of a session).
 /// Thread: that of the executor; one at a time.
 class PromptEnd {
