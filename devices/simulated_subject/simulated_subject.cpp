@@ -13,7 +13,8 @@ std::vector<DeviceFact> factsOf(const SharedSubject& subject, int digit) {
   if (digit != 0) return {};
   const SubjectSettings& settings = subject.settings();
   std::vector<DeviceFact> facts;
-  for (const subject::SubjectParameter& parameter : subject::Population(settings.level).parameters())
+  const subject::Population population(settings.level);
+  for (const subject::SubjectParameter& parameter : population.parameters())
     facts.push_back({std::string(parameter.name), std::string(parameter.unit), settings.parameters.*parameter.value});
   const subject::Brain& brain = subject.brain();
   facts.push_back({"device_resolution", "m", settings.resolution, true});

@@ -82,7 +82,8 @@ double drawResolution(std::uint64_t seed, std::uint64_t subject, std::uint64_t t
 class Population {
  public:
   explicit Population(Level level);
-  std::span<const SubjectParameter> parameters() const noexcept { return parameters_; }
+  std::span<const SubjectParameter> parameters() const& noexcept { return parameters_; }
+  std::span<const SubjectParameter> parameters() const&& = delete;  ///< a loop over those of a temporary outlives it
   /// Replaces the spread of a parameter; false when there is no such parameter.
   bool set(std::string_view name, Spread spread) noexcept;
   /// Turns off motor noise and misjudgement, and the allowance for them: mechanics only.

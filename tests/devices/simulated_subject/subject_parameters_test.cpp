@@ -14,7 +14,8 @@ constexpr Level kLevels[] = {Level::kL0, Level::kL1, Level::kL2};
 TEST(SubjectParameters, EachHasANameOfItsOwnAUnitASourceAndAPlace) {
   std::set<std::string_view> names;
   SubjectParameters parameters;
-  for (const SubjectParameter& parameter : Population(Level::kL1).parameters()) {
+  const Population population(Level::kL1);
+  for (const SubjectParameter& parameter : population.parameters()) {
     EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
     EXPECT_FALSE(parameter.unit.empty()) << parameter.name;
     EXPECT_FALSE(parameter.source.empty()) << parameter.name;
