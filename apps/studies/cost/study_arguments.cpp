@@ -33,7 +33,8 @@ void addStudyOptions(Command command, const std::shared_ptr<Arguments>& a) {
                  "comments and layout kept; elsewhere say so and write nothing (exit status 0)");
   command.flag("--instructions", a->instructions,
                "count instructions too (valgrind; about 50 times the time of a run)");
-  command.flag("--quick", a->request.quick, "few settings, two repeats: some seconds; with many bodies a coarser reference");
+  command.flag("--quick", a->request.quick,
+               "few settings, two repeats: some seconds; with many bodies a coarser reference");
   command.option("--rig", a->request.rig, "rig file instead of the scene's own");
   command.option("--set", a->request.sets, "PATH=VALUE for all settings; may be repeated").oneValueEach();
   command.option("--seed", a->request.seed, "seed of every random stream").positive();

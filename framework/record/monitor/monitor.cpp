@@ -79,7 +79,8 @@ struct Monitor::Impl {
   /// A trace has room for few bodies: first those that no joint holds, which people pick up.
   void traceWhatIsLoose() {
     std::vector<std::size_t> wanted = free;
-    std::stable_partition(wanted.begin(), wanted.end(), [&](std::size_t i) { return !isJoined(world->scene.joints, i); });
+    std::stable_partition(wanted.begin(), wanted.end(),
+                          [&](std::size_t i) { return !isJoined(world->scene.joints, i); });
     wanted.resize(std::min(wanted.size(), TraceSample{}.bodies.size()));
     traced.assign(wanted.begin(), wanted.end());
   }
