@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/common/joint_log.h"
+#include "apps/common/tool_log.h"
 #include "framework/core/schedule/tick.h"
 #include "framework/core/schedule/timing_stats.h"
 #include "framework/device/phase_intent.h"
@@ -89,6 +90,7 @@ struct RunResult {
   };
   std::vector<DrivenFrame> frames;
   const JointLog* joints = nullptr;  ///< null: the scene has none
+  std::vector<ToolSummary> tools;    ///< tools with volume, in the order of their roles
   std::vector<Fault> faults;
   std::vector<std::string> load_warnings;  ///< repaired meshes and the like, as printed ("a.xml:1:2: warning[W307]: …")
   std::vector<std::string> notes;          ///< stiffness bounds, raised damping, skipped parts, …

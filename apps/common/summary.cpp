@@ -218,6 +218,13 @@ std::string summaryJson(const RunResult& result) {
                               {"lost", frame.losses},
                               {"zoom", frame.zoom}});
   if (result.joints != nullptr) json["joints"] = joints(*result.joints);
+  for (const ToolSummary& tool : result.tools)
+    json["tools"].push_back({{"name", tool.name},
+                             {"ticks_in_contact", tool.touched},
+                             {"ticks_examined_coarsely", tool.coarse},
+                             {"ticks_out_of_balance", tool.late},
+                             {"most_points_in_contact", tool.most_points},
+                             {"deepest_m", tool.deepest}});
   if (const auto figures = graspFigures(result)) json["grasp"] = grasp(result, *figures);
   if (result.assembly) json["assembly"] = {{"goals", result.assembly->goals}, {"filled", result.assembly->filled}};
   json["solver_fallbacks"] = result.solver_fallbacks;

@@ -119,6 +119,7 @@ struct TerminalRun::Live {
   std::atomic<std::int32_t> filled{0};  // filled places of the assembly
   std::shared_ptr<const World> world;   // of the joints
   std::optional<JointLog> joints;       // only in a scene with joints
+  std::vector<ToolSummary> tools;       // only in a scene with tools
   std::vector<std::uint32_t> doing;     // with the frames of the rig, when it was last said
   std::int64_t said_ns = 0;
   std::int64_t start_ns = 0;
@@ -161,6 +162,7 @@ std::vector<std::unique_ptr<Module>> TerminalRun::observers(const Loaded& loaded
     live_->joints.emplace(jointLogFor(scene, loaded.options.duration, settings_.trace_rate));
     modules.push_back(std::make_unique<JointObserver>(*live_->joints));
   }
+  if (loaded.world->scene.hasTools()) modules.push_back(std::make_unique<ToolLog>(loaded.world->scene, live_->tools));
   if (loaded.world->scene.assembly) modules.push_back(std::make_unique<AssemblyObserver>(live_->filled));
   if (paced_) modules.push_back(std::make_unique<Pacer>(time_control_, view_, control_, while_held_));
   return modules;
@@ -424,6 +426,7 @@ void TerminalRun::finish() {
       result_.rates.push_back({group, run_->executor().rates().rate(group), &run_->executor().timing(group)});
   }
   takeMonitor(run_->session().monitor(), result_);
+  result_.tools = live_->tools;
   if (live_->joints) result_.joints = &*live_->joints;
   takeFrames();
   if (const auto& assembly = run_->world().scene.assembly)

@@ -86,6 +86,7 @@ std::uint64_t sceneHash(const World& world) {
   for (const DeviceRole& device : world.scene.devices) {
     hash.add(device.role);
     hash.add(device.fingertip_radius);
+    if (device.tool) addGeometry(hash, device.tool->geometry, nullptr);
   }
   return hash.value();
 }

@@ -16,10 +16,12 @@ class SurfaceTree {
     std::size_t ignored = 0;
     return search(0, p, bound, ignored);
   }
-  /// The triangle nearest to p.
-  std::size_t nearest(const Vec3& p) const {
-    std::size_t triangle = 0;
-    search(0, p, 1e300, triangle);
+  /// The triangle nearest to p. `bound`: an upper bound of the squared distance that the caller knows, for speed [m^2];
+  /// one that is too small costs a second search.
+  std::size_t nearest(const Vec3& p, double bound = 1e300) const {
+    std::size_t triangle = kNone;
+    search(0, p, bound, triangle);
+    if (triangle == kNone) search(0, p, 1e300, triangle);
     return triangle;
   }
   /// Distance along `direction` (unit) at which a ray from p first meets the mesh [m]; `bound` when it is larger.
@@ -28,7 +30,7 @@ class SurfaceTree {
   bool isInside(const Vec3& p) const;
 
  private:
-  static constexpr std::size_t kLeaf = 4;
+  static constexpr std::size_t kLeaf = 4, kNone = static_cast<std::size_t>(-1);
   struct Node {
     AxisBox box;
     std::size_t begin = 0, end = 0, right = 0;  // right 0: a leaf

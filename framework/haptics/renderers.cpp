@@ -10,14 +10,13 @@
 namespace presa {
 namespace {
 
-/// The element of the renderer's settings; its defaults where the scene has none.
-PluginElement settingsOf(const Scene& scene) {
-  const std::string& name = scene.haptics.renderer;
+/// The element of a renderer's settings; its defaults where the scene has none.
+PluginElement settingsOf(const Scene& scene, const std::string& name, PluginKind kind) {
   const auto written = std::ranges::find_if(scene.plugin_elements, [&](const PluginElement& element) {
-    return element.kind == PluginKind::kRenderer && element.plugin == name;
+    return element.kind == kind && element.plugin == name;
   });
   if (written != scene.plugin_elements.end()) return *written;
-  PluginElement settings{name, "haptics", kNoBody, {}, {scene.file, 0, 0}, PluginKind::kRenderer};
+  PluginElement settings{name, "haptics", kNoBody, {}, {scene.file, 0, 0}, kind};
   const Manifest* manifest = findManifest(name);
   if (manifest == nullptr) return settings;
   for (const Manifest::Element& element : manifest->elements) {
@@ -30,7 +29,7 @@ PluginElement settingsOf(const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<Renderer> makeRenderer(const World& world) {
-  const PluginElement settings = settingsOf(world.scene);
+  const PluginElement settings = settingsOf(world.scene, world.scene.haptics.renderer, PluginKind::kRenderer);
   const auto& table = pluginTable<RendererPlugin>(settings.plugin, "presaRendererPlugin");
   return madeFor(settings, [&] {
     auto renderer = table.create(settings, world);
@@ -38,6 +37,22 @@ std::unique_ptr<Renderer> makeRenderer(const World& world) {
       throw std::logic_error("its manifest says gives=\"proxy\", but it has no mover");
     return renderer;
   });
+}
+
+std::unique_ptr<ToolRenderer> makeToolRenderer(const World& world) {
+  const PluginElement settings = settingsOf(world.scene, world.scene.haptics.tool_renderer, PluginKind::kToolRenderer);
+  const auto& table = pluginTable<ToolRendererPlugin>(settings.plugin, "presaToolRendererPlugin");
+  return madeFor(settings, [&] { return table.create(settings, world); });
+}
+
+bool keepsContract(const BoundedList<ToolForce>& forces, const Pose& X_WT, const Touchables& touchables) noexcept {
+  double sum = X_WT.p.sum() + X_WT.q.coeffs().sum();
+  bool touchable = true;
+  for (const ToolForce& one : forces) {
+    sum += one.p_W.sum() + one.nhat_W.sum() + one.f_W.sum() + one.stiffness;
+    touchable = touchable && one.stiffness > 0 && touchables.has(one.body);
+  }
+  return std::isfinite(sum) && touchable;
 }
 
 bool keepsContract(const ProxyContact& contact, const BoundedList<RenderedContact>& own,

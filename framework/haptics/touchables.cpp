@@ -4,9 +4,7 @@
 #include <optional>
 
 namespace presa {
-namespace {
 
-/// The primitive of a geometry, or none for a mesh.
 std::optional<Primitive> primitiveOf(const Geometry& geometry) {
   Primitive primitive;
   primitive.X_AG = geometry.X_BG;
@@ -29,6 +27,8 @@ std::optional<Primitive> primitiveOf(const Geometry& geometry) {
   }
   return primitive;
 }
+
+namespace {
 
 bool isIdentity(const Pose& X) noexcept { return X.p == Vec3::Zero() && X.q.coeffs() == Quat::Identity().coeffs(); }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "framework/core/state/finger_neighbourhood.h"
@@ -7,6 +8,9 @@
 #include "framework/scene/world.h"
 
 namespace presa {
+
+/// The primitive of a geometry, with its pose in the body as X_AG; none for a mesh. Thread: any.
+std::optional<Primitive> primitiveOf(const Geometry& geometry);
 
 /// All touchable bodies at their current poses. The pose of a moving body is computed on demand, so that in a scene of
 /// thousands a tick costs only as much as the bodies near its fingers. Thread: haptic; nonblocking except for

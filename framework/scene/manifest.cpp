@@ -43,6 +43,7 @@ const std::vector<KindRule>& kindRules() {
       {PluginKind::kForceEffect, "force_effect", "force effect", {Place::kBody, Place::kScene}},
       {PluginKind::kFrictionLaw, "friction_law", "friction law", {Place::kFriction}},
       {PluginKind::kRenderer, "renderer", "renderer", {Place::kHaptics}},
+      {PluginKind::kToolRenderer, "tool_renderer", "tool renderer", {Place::kHaptics}},
       {PluginKind::kSurfaceEffect, "surface_effect", "surface effect", {Place::kBody, Place::kMaterial, Place::kScene}},
       {PluginKind::kModule, "module", "module", {Place::kBody, Place::kScene}},
       {PluginKind::kDevice, "device", "device", {}},
@@ -134,6 +135,11 @@ void checkBound(const Manifest& manifest, const Manifest::Element& element, Diag
                     "unit=\"N\" above=\"0\" about=\"…\"/>");
 }
 
+/// Of fingertips or of tools: a scene names it by an attribute.
+bool isRenderer(const Manifest& manifest) {
+  return manifest.kind == PluginKind::kRenderer || manifest.kind == PluginKind::kToolRenderer;
+}
+
 /// A scene that names a renderer need not have its settings.
 void checkSettings(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
   for (const Manifest::Attribute& attribute : element.attributes) {
@@ -160,10 +166,10 @@ void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
     checkPlace(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kForceEffect || manifest.kind == PluginKind::kBodyEffect)
       checkBound(manifest, element, diagnostics);
-    if (manifest.kind == PluginKind::kRenderer) checkSettings(manifest, element, diagnostics);
+    if (isRenderer(manifest)) checkSettings(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kMethod) checkFiles(manifest, element, diagnostics);
   }
-  if (manifest.kind == PluginKind::kRenderer && manifest.elements.size() > 1) {
+  if (isRenderer(manifest) && manifest.elements.size() > 1) {
     diagnostics.error(kAgainstKind, manifest.elements[1].where,
                       "the renderer '" + manifest.name + "' has a second element for its settings",
                       "put all attributes into <" + manifest.elements[0].name + ">");
@@ -377,12 +383,14 @@ std::string sceneSchemaWith(const std::vector<Manifest>& all) {
       declarations[element.place] += declarationOf(element, types);
   }
   insertAt(xsd, "types of plug-ins", types);
-  std::string renderers, engines;
+  std::string renderers, tool_renderers, engines;
   for (const Manifest& manifest : all) {
     if (manifest.kind == PluginKind::kRenderer) renderers += choice(manifest.name);
+    if (manifest.kind == PluginKind::kToolRenderer) tool_renderers += choice(manifest.name);
     if (!manifest.module.engine.empty()) engines += choice(manifest.module.engine);
   }
   insertAt(xsd, "renderers of plug-ins", renderers);
+  insertAt(xsd, "tool renderers of plug-ins", tool_renderers);
   insertAt(xsd, "engines of plug-ins", engines);
   for (const auto& [place, text] : declarations)
     insertAt(xsd, std::string("elements of plug-ins: ") + nameOf(place), text);

@@ -29,6 +29,9 @@ void appendMeshes(SceneOrConst& scene, std::vector<Ref*>& refs) {
       }
     }
   }
+  for (auto& device : scene.devices) {
+    if (device.tool) add(device.tool->geometry.shape);
+  }
 }
 
 struct Support {

@@ -47,6 +47,14 @@ bool Scene::hasForceEffects() const {
                              [](const PluginElement& element) { return element.kind == PluginKind::kForceEffect; });
 }
 
+bool Scene::hasTools() const {
+  return std::ranges::any_of(devices, [](const DeviceRole& device) { return device.tool.has_value(); });
+}
+
+bool Scene::hasFingertips() const {
+  return std::ranges::any_of(devices, [](const DeviceRole& device) { return !device.tool.has_value(); });
+}
+
 namespace {
 
 /// Calls visit(element, manifest, body, material) for each element that a plug-in brings, in the order of the document

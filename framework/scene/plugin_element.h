@@ -20,7 +20,8 @@ enum class PluginKind {
   kModule,
   kDevice,
   kMethod,
-  kMetric
+  kMetric,
+  kToolRenderer
 };
 
 /// An element of the scene, or of an experiment, that a plug-in brings, with the values that its manifest allows.

@@ -131,15 +131,34 @@ struct DeviceLimits {
   double watchdog_ms = 20;   ///< age of the object state at which the force fades [ms]
 };
 
+/// The spring-damper between a tool with volume and the handle of the device that holds it (virtual coupling). Its
+/// forces grow linearly up to half of their limit and then approach the limit, so that no jam exceeds it.
+struct ToolCoupling {
+  double stiffness = 1000;    ///< [N/m], > 0
+  double turn_stiffness = 1;  ///< [N m/rad], > 0
+  double damping = 0,         ///< of the tool's motion against the handle [N s/m]
+      turn_damping = 0;       ///< the same of its turning [N m s/rad]
+  double max_force = 8,       ///< [N], > 0
+      max_torque = 0.5;       ///< [N m], > 0
+};
+
+/// A solid in the hand, instead of a fingertip: it touches with its whole surface.
+struct Tool {
+  Geometry geometry;      ///< X_BG is its pose in the frame T of the handle
+  ToolCoupling coupling;  ///< between handle and tool
+};
+
 /// A device role that the scene asks for. The rig binds hardware to it.
 struct DeviceRole {
   std::string role;                 ///< "thumb": the rig binds a device to it
   double fingertip_radius = 0.008;  ///< [m]; 0: point contact
+  std::optional<Tool> tool{};       ///< none: a fingertip, a sphere; its radius does not count then
   DeviceLimits limits;              ///< the rig may tighten them
   SourceLocation where;             ///< its element in the scene
 };
 
 inline constexpr const char* kDefaultRenderer = "god_object";  ///< of a scene that names none, as in its schema
+inline constexpr const char* kDefaultToolRenderer = "pointshell";  ///< of a scene with tools that names none
 inline constexpr const char* kDefaultEngine = "ode";           ///< of a scene that names none, as in its schema
 
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
@@ -150,6 +169,7 @@ struct HapticSettings {
   std::string renderer = kDefaultRenderer;  ///< plug-in (framework/haptics/renderer.h)
   bool proxy = true;                        ///< its manifest gives a proxy that friction can hold
   PoseUse pose = PoseUse::kInterpolate;     ///< of bodies in the haptic tick
+  std::string tool_renderer = kDefaultToolRenderer;  ///< plug-in of tools (framework/haptics/tool_renderer.h)
 };
 
 /// How the collision thread finds what is near a finger.
@@ -247,6 +267,8 @@ struct Scene {
   std::string resolved_xml;                    ///< document after --set and defaults, as stored in recordings
 
   bool hasForceEffects() const;  ///< some element's plug-in is a force effect
+  bool hasTools() const;         ///< some device holds a tool
+  bool hasFingertips() const;    ///< some device holds none
   const Material& materialOf(const Body& body) const { return materials[body.material]; }  ///< of this scene's bodies
   /// Whether some touchable material has changed_friction and the renderer supports friction.
   bool surfacesChange() const;

@@ -239,11 +239,17 @@ class SceneCheck {
   /// The children of <haptics> are the settings of renderers.
   void checkRenderer(const Element& haptics) {
     if (haptics.flawed("renderer")) return;
-    const std::string name = haptics.attribute("renderer", kDefaultRenderer);
-    const Manifest* renderer = findManifest(name);
+    if (haptics.flawed("tools")) return;
+    const std::string name = haptics.attribute("renderer", kDefaultRenderer),
+                      of_tools = haptics.attribute("tools", kDefaultToolRenderer);
     for (const Element& settings : haptics.children()) {
-      const auto is_this = [&](const Manifest::Element& own) { return own.name == settings.name(); };
-      if (renderer != nullptr && std::ranges::any_of(renderer->elements, is_this)) continue;
+      const auto belongs_to = [&](const std::string& renderer) {
+        const Manifest* manifest = findManifest(renderer);
+        return manifest != nullptr &&
+               std::ranges::any_of(manifest->elements,
+                                   [&](const Manifest::Element& own) { return own.name == settings.name(); });
+      };
+      if (belongs_to(name) || belongs_to(of_tools)) continue;
       diagnostics_.error(kOtherRenderer, settings.where(),
                          "<" + settings.name() + "> has settings of another renderer than " + quote(name),
                          "remove it, or write <haptics renderer=\"…\"> with the renderer that it belongs to");

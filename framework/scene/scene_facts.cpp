@@ -34,6 +34,12 @@ SceneFact fingers(const AskedRun& run) {
   return {"", true, "fingers can touch body '" + touchable->name + "'"};
 }
 
+SceneFact fingertips(const AskedRun& run) {
+  if (run.scene.devices.empty()) return {"", false, "the scene has no device"};
+  if (!run.scene.hasFingertips()) return {"", false, "every device holds a tool"};
+  return {"", true, "a device moves a fingertip"};
+}
+
 SceneFact touchableMesh(const AskedRun& run) {
   return aboutBody(run.scene, isTouchableMesh, "has a mesh as haptic geometry", kPrimitives);
 }
@@ -82,6 +88,7 @@ struct FactRule {
 };
 
 constexpr FactRule kRules[] = {{"fingers", fingers},
+                               {"fingertips", fingertips},
                                {"touchable_mesh", touchableMesh},
                                {"many_touchables", manyTouchables},
                                {"free_body", freeBody},

@@ -187,7 +187,18 @@ Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
   return assembly;
 }
 
-DeviceRole readDevice(const Element& element) {
+ToolCoupling readCoupling(const Element& tool) {
+  ToolCoupling coupling;
+  coupling.stiffness = tool.number("stiffness", coupling.stiffness);
+  coupling.turn_stiffness = tool.number("turn_stiffness", coupling.turn_stiffness);
+  coupling.damping = tool.number("damping", coupling.damping);
+  coupling.turn_damping = tool.number("turn_damping", coupling.turn_damping);
+  coupling.max_force = tool.number("max_force", coupling.max_force);
+  coupling.max_torque = tool.number("max_torque", coupling.max_torque);
+  return coupling;
+}
+
+DeviceRole readDevice(const Element& element, const std::string& directory) {
   DeviceRole device;
   device.role = element.attribute("role");
   device.fingertip_radius = element.number("fingertip_radius", device.fingertip_radius);
@@ -198,6 +209,8 @@ DeviceRole readDevice(const Element& element) {
     device.limits.torque_rate = limits.number("torque_rate", device.limits.torque_rate);
     device.limits.watchdog_ms = limits.number("watchdog_ms", device.limits.watchdog_ms);
   }
+  if (std::optional<Geometry> tool = readGeometry(element, "tool", directory))
+    device.tool = {*std::move(tool), readCoupling(element.children("tool")[0])};
   device.where = element.where();
   return device;
 }
@@ -216,6 +229,7 @@ HapticSettings readHaptics(const Element& element) {
   using H = HapticSettings;
   H settings;
   settings.renderer = element.attribute("renderer");
+  settings.tool_renderer = element.attribute("tools", kDefaultToolRenderer);
   const Manifest* renderer = findManifest(settings.renderer);
   settings.proxy = renderer != nullptr && renderer->hasProxy();
   settings.pose = choose(element, "pose", settings.pose, {{"hold", H::PoseUse::kHold}});
@@ -300,7 +314,7 @@ Scene readScene(const Element& root, const std::string& file, const std::string&
   const IndexByName materials = indexByName(scene.materials);
   for (const Element& body : root.children("body")) scene.bodies.push_back(readBody(body, materials, directory));
   scene.joints = readJoints(root, scene.bodies);
-  for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device));
+  for (const Element& device : deviceElements(root)) scene.devices.push_back(readDevice(device, directory));
   for (const Element& assembly : root.children("assembly")) scene.assembly = readAssembly(assembly, scene.bodies);
   scene.plugin_elements = readPluginElements(root);
   scene.bus = readBus(root);

@@ -63,6 +63,9 @@ void resolveFiles(const Element& scene, const std::string& directory) {
       for (const Element& geometry : body.children(role)) resolveMesh(geometry, directory);
     }
   }
+  for (const Element& device : deviceElements(root)) {
+    for (const Element& tool : device.children("tool")) resolveMesh(tool, directory);
+  }
   resolvePluginFiles(root, directory);
 }
 

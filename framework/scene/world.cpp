@@ -158,6 +158,19 @@ void makeConvex(const Body& body, BodyMeshes& meshes, Decomposer& decomposer, Di
   }
 }
 
+/// The surface of a tool in the frame of its handle; empty: its file could not be read.
+TriMesh toolMesh(const Geometry& geometry, const MeshPointer& read) {
+  TriMesh mesh;
+  if (const auto* box = std::get_if<Box>(&geometry.shape)) mesh = makeBox(box->size);
+  if (const auto* sphere = std::get_if<Sphere>(&geometry.shape)) mesh = makeSphere(sphere->radius);
+  if (const auto* rod = std::get_if<Cylinder>(&geometry.shape)) mesh = makeCylinder(rod->radius, rod->length);
+  if (const auto* rod = std::get_if<Capsule>(&geometry.shape)) mesh = makeCapsule(rod->radius, rod->length);
+  if (read) mesh = *read;
+  for (Vec3& v : mesh.vertices) v = geometry.X_BG * v;
+  buildAdjacency(mesh);
+  return mesh;
+}
+
 }  // namespace
 
 World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
@@ -177,6 +190,11 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
     for (const ShapePart& part : compound->parts)
       part_requests.back().push_back(library.request(part.shape, part.where, {.must_be_closed = true}));
   }
+  std::vector<int> tool_requests;
+  for (const DeviceRole& role : world.scene.devices) {
+    tool_requests.push_back(
+        role.tool ? library.request(role.tool->geometry.shape, role.tool->geometry.where, {.must_be_closed = true}) : -1);
+  }
   library.importAll(diagnostics);
   Decomposer decomposer;
   // the plug-ins read them, when a run makes their objects
@@ -195,6 +213,11 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
                         std::ranges::any_of(part_requests[b], [&](int r) { return r >= 0 && !library.get(r); });
     world.inertias.push_back(unread ? BodyInertia{} : inertiaOf(body, meshes, diagnostics));
     if (!unread) makeConvex(body, meshes, decomposer, diagnostics);
+  }
+  for (std::size_t d = 0; d < world.scene.devices.size(); ++d) {
+    const std::optional<Tool>& tool = world.scene.devices[d].tool;
+    world.tools.push_back(
+        tool ? std::make_shared<const TriMesh>(toolMesh(tool->geometry, library.get(tool_requests[d]))) : nullptr);
   }
   if (!diagnostics.hasErrors()) indexHapticMeshes(world);
   return world;

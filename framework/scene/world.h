@@ -40,6 +40,7 @@ struct World {
   Rig rig;                            ///< as loaded
   std::vector<BodyMeshes> meshes;     ///< as Scene::bodies
   std::vector<BodyInertia> inertias;  ///< as Scene::bodies
+  std::vector<std::shared_ptr<const TriMesh>> tools{};  ///< as Scene::devices, in the handle's frame T; null: no tool
 };
 
 /// Reads every mesh the scene names (each file once) and computes mass properties from the physics geometry.

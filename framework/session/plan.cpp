@@ -31,14 +31,16 @@ std::string withoutItsElements(const Manifest& manifest) {
 }
 
 void planRenderer(const Scene& scene, Plan& plan) {
-  if (scene.devices.empty()) return;
-  const std::string& renderer = scene.haptics.renderer;
-  plan.effects.push_back({renderer, "fingers meet bodies: <haptics renderer=\"" + renderer + "\">"});
+  const std::string &renderer = scene.haptics.renderer, &of_tools = scene.haptics.tool_renderer;
+  if (scene.hasFingertips())
+    plan.effects.push_back({renderer, "fingers meet bodies: <haptics renderer=\"" + renderer + "\">"});
+  if (scene.hasTools())
+    plan.effects.push_back({of_tools, "tools meet bodies: <haptics tools=\"" + of_tools + "\">"});
 }
 
 /// The friction laws of the bodies that fingers can touch.
 void planFriction(const Scene& scene, Plan& plan) {
-  if (scene.devices.empty() || !scene.haptics.proxy) return;
+  if (!scene.hasFingertips() || !scene.haptics.proxy) return;
   for (const Body& body : scene.bodies) {
     if (!body.haptic || !hasFriction(scene, body.material)) continue;
     const PluginElement law = frictionLawOf(scene, body.material);
@@ -49,7 +51,7 @@ void planFriction(const Scene& scene, Plan& plan) {
 }
 
 void planSurfaceEffects(const Scene& scene, Plan& plan) {
-  if (scene.devices.empty()) return;
+  if (!scene.hasFingertips()) return;
   for (const PluginElement& effect : surfaceEffectsOf(scene)) {
     if (std::ranges::any_of(plan.effects, [&](const PlannedEffect& e) { return e.plugin == effect.plugin; })) continue;
     const auto own = std::ranges::find(scene.plugin_elements, effect.plugin, &PluginElement::plugin);
@@ -75,6 +77,9 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
   if (manifest.kind == PluginKind::kViewPart) return has_it ? "no view is wanted" : withoutItsElements(manifest);
   if (manifest.kind == PluginKind::kBodyEffect) return has_it ? "no free body has it" : withoutItsElements(manifest);
   if (scene.devices.empty()) return "the scene has no device";
+  if (manifest.kind == PluginKind::kToolRenderer)
+    return scene.hasTools() ? "the scene's tool renderer is '" + scene.haptics.tool_renderer + "'" : "no device holds a tool";
+  if (!scene.hasFingertips()) return "every device holds a tool";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";
   if (!manifest.left_out.empty()) return manifest.left_out;
@@ -240,7 +245,7 @@ Plan makePlan(const Scene& scene, const Rig& rig, std::vector<PlannedDevice> dev
                       "use --lockstep, in which finer steps serve as a reference for coarser ones");
   }
   planRenderer(scene, plan);
-  if (!scene.devices.empty()) planElements(scene, PluginKind::kForceEffect, plan);
+  if (scene.hasFingertips()) planElements(scene, PluginKind::kForceEffect, plan);
   planFriction(scene, plan);
   planSurfaceEffects(scene, plan);
   planElements(scene, PluginKind::kBodyEffect, plan);

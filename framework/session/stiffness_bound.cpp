@@ -99,7 +99,13 @@ std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound&
                         "more damping of hand or device, or a higher haptic rate, allows more");
     lowered.push_back({std::move(path), exactly(allowed)});
   };
-  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+  for (const DeviceRole& role : scene.devices) {
+    if (!role.tool) continue;
+    lower("the handle of tool '" + role.role + "'", role.tool->coupling.stiffness, role.where,
+          "device/" + role.role + "/tool/stiffness");
+  }
+  // a tool feels the spring of its handle, whatever it touches
+  for (std::size_t m = 0; m < scene.materials.size() && scene.hasFingertips(); ++m) {
     const Material& material = scene.materials[m];
     if (!touchable(scene, m)) continue;
     const std::string name = "material '" + material.name + "'", path = "material/" + material.name;

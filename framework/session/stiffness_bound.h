@@ -39,8 +39,9 @@ DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Sce
 /// out without changing its sign from tick to tick. One warning W464 for each, with the bound.
 std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bound, Diagnostics& diagnostics);
 
-/// Overrides that lower the stiffness of each touchable material, and those of its friction law (attributes in N/m), to
-/// kStableShare of the bound; empty: none is above. One warning W454 for each, with the bound.
+/// Overrides that lower the stiffness of each touchable material, and those of its friction law (attributes in N/m), and
+/// of the handle of each tool, to kStableShare of the bound; empty: none is above. One warning W454 for each, with the
+/// bound.
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics);
 
 }  // namespace presa

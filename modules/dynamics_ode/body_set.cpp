@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "modules/dynamics_ode/ode_types.h"
 #include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {
@@ -40,6 +39,10 @@ BodySet::BodySet(const World& world, DynamicsSettings::Rotation rotation, dWorld
       entry.inertia = inertia.inertia;
       entry.inverse_inertia = inertia.inertia.inverse();
       entry.body = dBodyCreate(ode_world);
+      entry.p_WCm = dBodyGetPosition(entry.body);
+      entry.v_WCm = dBodyGetLinearVel(entry.body);
+      entry.w_WB = dBodyGetAngularVel(entry.body);
+      entry.q_WB = dBodyGetQuaternion(entry.body);
       const dMass mass = massOf(inertia);
       dBodySetMass(entry.body, &mass);
       // ODE's gyroscopic term is inaccurate; driftRotations replaces it
@@ -70,19 +73,16 @@ BodySet::~BodySet() {
   }
 }
 
-BodySet::State BodySet::read(const Entry& entry) {
-  return {toVec3(dBodyGetPosition(entry.body)), toVec3(dBodyGetLinearVel(entry.body)),
-          toVec3(dBodyGetAngularVel(entry.body)), toQuat(dBodyGetQuaternion(entry.body))};
-}
-
 Pose BodySet::poseOf(const Entry& entry, const State& state) {
   return {state.p_WCm - state.q_WB * entry.p_BCm, state.q_WB};
 }
 
-bool BodySet::sane(const State& state) {
+bool BodySet::sane(const Entry& entry) {
   // comparisons are written so that NaN fails
-  return state.p_WCm.squaredNorm() < kMaxReach * kMaxReach && state.v_WCm.squaredNorm() < kMaxSpeed * kMaxSpeed &&
-         state.w_WB.squaredNorm() < kMaxSpin * kMaxSpin && std::abs(state.q_WB.squaredNorm() - 1) < 2e-6;
+  return toVec3(entry.p_WCm).squaredNorm() < kMaxReach * kMaxReach &&
+         toVec3(entry.v_WCm).squaredNorm() < kMaxSpeed * kMaxSpeed &&
+         toVec3(entry.w_WB).squaredNorm() < kMaxSpin * kMaxSpin &&
+         std::abs(toQuat(entry.q_WB).squaredNorm() - 1) < 2e-6;
 }
 
 BodyInertiaState BodySet::inertiaState(std::size_t i) const {
@@ -97,11 +97,6 @@ bool BodySet::anyAwake() const noexcept {
     if (awake(i)) return true;
   }
   return false;
-}
-
-Pose BodySet::centrePose(std::size_t i) const {
-  const State state = read(bodies_[i]);
-  return {state.p_WCm, state.q_WB};
 }
 
 Pose BodySet::poseOf(std::size_t shape) const {
@@ -150,8 +145,8 @@ bool BodySet::areNear(std::size_t i, std::size_t j, double distance) const {
 Vec3 BodySet::velocityAt(std::size_t i, const Vec3& p_W) const {
   if (!moves(i)) return Vec3::Zero();
   const Entry& entry = bodies_[i];
-  const Vec3 w_WB = toVec3(dBodyGetAngularVel(entry.body));
-  return toVec3(dBodyGetLinearVel(entry.body)) + w_WB.cross(p_W - entry.begin.p_WCm);
+  const Vec3 w_WB = toVec3(entry.w_WB);
+  return toVec3(entry.v_WCm) + w_WB.cross(p_W - entry.begin.p_WCm);
 }
 
 Vec3 BodySet::pathVelocityAt(std::size_t i, const Vec3& p_W) const {
@@ -163,7 +158,7 @@ Vec3 BodySet::pathVelocityAt(std::size_t i, const Vec3& p_W) const {
 double BodySet::reach(std::size_t i, double h) const {
   if (!moves(i) && !isHeld(i)) return 0;
   const Entry& entry = bodies_[i];
-  return h * (toVec3(dBodyGetLinearVel(entry.body)).norm() + toVec3(dBodyGetAngularVel(entry.body)).norm() * entry.rim);
+  return h * (toVec3(entry.v_WCm).norm() + toVec3(entry.w_WB).norm() * entry.rim);
 }
 
 void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
@@ -171,7 +166,7 @@ void BodySet::setVelocity(std::size_t i, const Vec3& v_WB, const Vec3& w_WB) {
 }
 
 void BodySet::setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB) {
-  const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm);
+  const Vec3 v_WCm = v_WB + w_WB.cross(toQuat(entry.q_WB) * entry.p_BCm);
   dBodySetLinearVel(entry.body, v_WCm.x(), v_WCm.y(), v_WCm.z());
   dBodySetAngularVel(entry.body, w_WB.x(), w_WB.y(), w_WB.z());
 }
@@ -179,8 +174,8 @@ void BodySet::setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB
 void BodySet::nudge(std::size_t i, double speed) {
   const Entry& entry = bodies_[i];
   const Vec3 oblique = speed * Vec3(0.62, -0.41, 0.67);
-  const Vec3 v = toVec3(dBodyGetLinearVel(entry.body)) + oblique;
-  const Vec3 w = toVec3(dBodyGetAngularVel(entry.body)) + oblique.reverse() / std::max(entry.extent, 1e-6);
+  const Vec3 v = toVec3(entry.v_WCm) + oblique;
+  const Vec3 w = toVec3(entry.w_WB) + oblique.reverse() / std::max(entry.extent, 1e-6);
   dBodySetLinearVel(entry.body, v.x(), v.y(), v.z());
   dBodySetAngularVel(entry.body, w.x(), w.y(), w.z());
 }
@@ -276,13 +271,13 @@ void BodySet::resetForces() {
 void BodySet::addForce(std::size_t i, const Vec3& f_W, const Vec3& p_WP) {
   Entry& entry = bodies_[i];
   entry.force_W += f_W;
-  entry.torque_W += (p_WP - toVec3(dBodyGetPosition(entry.body))).cross(f_W);
+  entry.torque_W += (p_WP - toVec3(entry.p_WCm)).cross(f_W);
 }
 
 void BodySet::addForceAndTorque(std::size_t i, const Vec3& f_W, const Vec3& torque_W) {
   Entry& entry = bodies_[i];
   entry.force_W += f_W;
-  entry.torque_W += torque_W - (toQuat(dBodyGetQuaternion(entry.body)) * entry.p_BCm).cross(f_W);
+  entry.torque_W += torque_W - (toQuat(entry.q_WB) * entry.p_BCm).cross(f_W);
 }
 
 void BodySet::addAtCentre(std::size_t i, const Vec3& f_W, const Vec3& torque_W) {
@@ -341,7 +336,7 @@ void BodySet::driftRotations(double h) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Entry& entry = bodies_[i];
     if (std::exchange(entry.rotated, false) || !awake(i)) continue;
-    Vec3 w_WB = toVec3(dBodyGetAngularVel(entry.body));
+    Vec3 w_WB = toVec3(entry.w_WB);
     const double angle = w_WB.norm() * h;
     if (!(angle > kMinAngle && angle < kMaxSpin)) continue;
     Quat q_WB = entry.begin.q_WB;
@@ -435,7 +430,7 @@ void BodySet::release(std::size_t i, const Pose& X_WB, const Vec3& v_WB, const V
 std::size_t BodySet::freezeBroken() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!awake(i) || sane(read(bodies_[i]))) continue;
+    if (!awake(i) || sane(bodies_[i])) continue;
     freeze(bodies_[i]);
     ++count;
   }

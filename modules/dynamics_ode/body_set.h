@@ -13,6 +13,7 @@
 #include "modules/dynamics_ode/body_contact.h"
 #include "modules/dynamics_ode/convex/hull.h"
 #include "modules/dynamics_ode/finger_constraint.h"
+#include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {
 
@@ -84,7 +85,7 @@ class BodySet {
   /// Centre of mass at the last beginStep [m]; the origin of W for a body that does not move.
   Vec3 centreAtBegin(std::size_t i) const { return moves(i) ? bodies_[i].begin.p_WCm : Vec3(Vec3::Zero()); }
   /// Pose of the centre of mass, with the body's axes. Only for bodies that move.
-  Pose centrePose(std::size_t i) const;
+  Pose centrePose(std::size_t i) const { return {toVec3(bodies_[i].p_WCm), toQuat(bodies_[i].q_WB)}; }
   /// Current velocity of the point of body `i` that was at p_W at the last beginStep [m/s]; zero if it does not move.
   Vec3 velocityAt(std::size_t i, const Vec3& p_W) const;
 
@@ -195,7 +196,9 @@ class BodySet {
   using State = Motion;
   struct Entry {
     dBodyID body = nullptr;  ///< null: a fixed body of the scene
-    Shapes shapes;           ///< none: no collisions
+    // its state in ODE, at the same place as long as it lives: read many times in a step
+    const dReal *p_WCm = nullptr, *v_WCm = nullptr, *w_WB = nullptr, *q_WB = nullptr;
+    Shapes shapes;  ///< none: no collisions
     Vec3 p_BCm = Vec3::Zero();
     Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();
     double mass = 0, extent = 0, rim = 0;      // rim: for reach(), about the centre of mass
@@ -227,11 +230,13 @@ class BodySet {
   std::span<ShapeEntry> shapesOf(const Entry& entry) {
     return std::span(shapes_).subspan(entry.shapes.first, entry.shapes.count);
   }
-  static State read(const Entry& entry);
+  static State read(const Entry& entry) {
+    return {toVec3(entry.p_WCm), toVec3(entry.v_WCm), toVec3(entry.w_WB), toQuat(entry.q_WB)};
+  }
   static void setVelocity(const Entry& entry, const Vec3& v_WB, const Vec3& w_WB);
   static void setPose(const Entry& entry, const Pose& X_WCm);
   static Pose poseOf(const Entry& entry, const State& state);
-  static bool sane(const State& state);
+  static bool sane(const Entry& entry);
   void rotate(const Entry& entry, Quat& q_WB, Vec3& w_WB, double h) const;
   static void makeStill(Entry& entry);
   void detach(Entry& entry);

@@ -25,12 +25,13 @@ class BroadPhase {
     std::uint32_t body;
     bool awake;
   };
-  static Bounds boundsOf(const BodySet& bodies, std::size_t i, double h, double margin);
+  static void measure(const BodySet& bodies, std::size_t i, double h, double margin, Bounds& out);
   static bool overlap(const Bounds& a, const Bounds& b, int axis) {
     return a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
   }
-  void measure(const BodySet& bodies, double h, double margin);
-  int longestAxis() const;
+  /// Fills `bounds_`; returns the bounds of all awake bodies together.
+  Bounds measure(const BodySet& bodies, double h, double margin);
+  static int longestAxis(const Bounds& all);
 
   std::vector<Bounds> bounds_;
   std::vector<Pair> pairs_;

@@ -51,7 +51,8 @@ bool isUsable(const FingerContact& c) {
 FingerContact contactOf(const FingerContact& contact, const ToolContact& part) {
   FingerContact own = contact;
   own.body = part.body;
-  own.p_WH = contact.p_WP - part.stretch_W;
+  own.p_WP = part.p_WP;
+  own.p_WH = part.p_WP - part.stretch_W;
   own.v_WH = part.v_WH;
   own.stiffness = part.stiffness;
   own.damping = part.damping;

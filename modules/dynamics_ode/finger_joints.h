@@ -93,7 +93,7 @@ std::size_t forEachTouch(const ContactExchange& exchange, const BodySet& bodies,
   for (std::size_t f = 0; f < exchange.fingers.size(); ++f) {
     const FingerContact& contact = exchange.fingers[f];
     if (contact.mode == ContactMode::kNone) continue;
-    if (contact.contact_count < 2) {
+    if (contact.contact_count < 2 && !contact.has_volume) {
       judge(f, contact);
     } else {
       for (const ToolContact& part : exchange.contactsOf(contact)) judge(f, contactOf(contact, part));

@@ -13,6 +13,15 @@ void driftRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inve
 /// at a fifth of the cost. For islands with joints, which ask several times in a step.
 void magnusRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);
 
+/// A body that turns freely, as above.
+struct Turning {
+  Quat& q_WB;
+  Vec3& w_WB;
+  const Mat3 &inertia, &inverse_inertia;
+};
+/// Of two bodies: the same bits as one after the other, in little more time than one takes.
+void magnusRotations(const Turning& first, const Turning& second, double h);
+
 /// One explicit Euler step of Euler's equations and of the quaternion, then normalised. Textbook baseline; gains
 /// energy.
 void eulerRotation(Quat& q_WB, Vec3& w_WB, const Mat3& inertia, const Mat3& inverse_inertia, double h);

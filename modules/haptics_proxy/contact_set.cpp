@@ -189,6 +189,7 @@ void divideContact(FingerTick& tick) noexcept {
       addFriction(tick, *friction, one.depth / multipliersOf(&one), one);
     one.stretch_W = tick.X_WA.q * one.stretch_W;
   }
+  for (ToolContact& one : mine) one.p_WP = tick.X_WA * tick.contact.x;
   for (ToolContact& one : mine) one.depth = one.stretch_W.dot(tick.touchables.frameOf(one.body).q * one.nhat_B);
 }
 
@@ -199,6 +200,7 @@ void finishContacts(FingerTick& tick) noexcept {
   if (mine.empty()) return;
   mine[0] = {.body = out.body,
              .p_BP = out.p_BP,
+             .p_WP = out.p_WP,
              .nhat_B = out.nhat_B,
              .v_WH = out.v_WH,
              .stretch_W = out.p_WP - out.p_WH,

@@ -23,22 +23,34 @@ HapticsProxy::HapticsProxy(std::shared_ptr<const World> world, const HapticEffec
       effects_(effects),
       touchables_(*world_),
       objects_(*this, effects.held ? kShownObjectsPort : "object_state", In<ObjectState>::Optional{}, WhenOld::kHold) {
-  for (const DeviceRole& role : world_->scene.devices) {
-    RenderedFinger finger;
-    finger.radius = std::max(role.fingertip_radius, touchables_.lift());
-    finger.lift = finger.radius - role.fingertip_radius;
-    finger.near = std::make_unique<Surroundings>(touchables_.meshCount());
-    fingers_.push_back(std::move(finger));
-  }
   if (effects.poses == HapticEffects::Poses::kInterpolate) {
     place_bodies_.push_back({"interpolate the Object State to now", interpolateBodies});
   } else if (effects.poses == HapticEffects::Poses::kHold) {
     place_bodies_.push_back({"use the body poses at the end of the last dynamics step", holdBodies});
   }
   const SurfacesInForce in_force = surfaces(effects);
+  if (world_->scene.hasFingertips()) addFingertips(effects, in_force);
+  std::size_t contacts = std::max(ActiveSet{}.member.size(), own_contacts_.capacity());
+  if (world_->scene.hasTools()) {
+    tools_.push_back(std::make_unique<HeldTools>(*this, *world_, in_force.materials));
+    contacts = std::max(contacts, tools_.front()->maxForces());
+  }
+  contact_.value = ContactExchange(world_->scene.devices.size(), contacts);
+}
+
+void HapticsProxy::addFingertips(const HapticEffects& effects, const SurfacesInForce& in_force) {
+  for (const DeviceRole& role : world_->scene.devices) {
+    RenderedFinger finger;
+    finger.radius = std::max(role.fingertip_radius, touchables_.lift());
+    finger.lift = finger.radius - role.fingertip_radius;
+    if (!role.tool) {
+      finger.near = std::make_unique<Surroundings>(touchables_.meshCount());
+      fingertips_.push_back(fingers_.size());
+    }
+    fingers_.push_back(std::move(finger));
+  }
   renderer_ = makeRenderer(*world_);
   own_contacts_ = BoundedList<RenderedContact>(renderer_->maxOwnContacts());
-  contact_.value = ContactExchange(fingers_.size(), std::max(ActiveSet{}.member.size(), own_contacts_.capacity()));
   if (effects.friction) {
     auto friction = frictionOf(effects, in_force);
     friction_ = friction.get();
@@ -77,7 +89,8 @@ void HapticsProxy::step(const Tick& tick) noexcept {
   ContactExchange& out = contact_.value;
   out.time = tick.time;
   out.contacts.clear();
-  for (std::size_t f = 0; f < fingers_.size(); ++f) stepFinger(f, tick);
+  for (const std::size_t f : fingertips_) stepFinger(f, tick);
+  for (const auto& tools : tools_) tools->step(device_.value(), tick.period, touchables_, out);
 }
 
 void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
@@ -150,6 +163,9 @@ void HapticsProxy::changeFrame(FingerTick& tick) noexcept {
 
 std::optional<std::string> HapticsProxy::brokenPlugin() const {
   if (renderer_broken_.load(std::memory_order_acquire)) return "renderer '" + world_->scene.haptics.renderer + "'";
+  for (const auto& tools : tools_) {
+    if (tools->broken()) return "tool renderer '" + world_->scene.haptics.tool_renderer + "'";
+  }
   for (const auto& added : force_effects_) {
     const int broken = added->effects.broken();
     if (broken >= 0) return "force effect " + added->effects.names()[static_cast<std::size_t>(broken)];
@@ -162,8 +178,11 @@ std::vector<std::string> HapticsProxy::stages() const {
   std::vector<std::string> stages;
   if (!commanded_.empty()) stages.emplace_back("move the surface parameters smoothly to their commanded values");
   for (const PlaceBodies& stage : place_bodies_) stages.emplace_back(stage.what);
-  stages.emplace_back("gather the pieces within reach of each fingertip");
-  stages.push_back(renderer_->what());
+  if (renderer_) {
+    stages.emplace_back("gather the pieces within reach of each fingertip");
+    stages.push_back(renderer_->what());
+  }
+  for (const auto& tools : tools_) stages.push_back(tools->what());
   for (const auto& stage : finger_stages_) stages.emplace_back(stage->what());
   for (const auto& added : force_effects_) {
     for (const std::string& name : added->effects.names()) stages.push_back("force effect " + name);

@@ -12,12 +12,14 @@
 #include "modules/haptics_proxy/commanded_surfaces.h"
 #include "modules/haptics_proxy/effects.h"
 #include "modules/haptics_proxy/finger_stage.h"
+#include "modules/haptics_proxy/held_tools.h"
 
 namespace presa {
 
 /// Haptic rendering of all fingers: device state in, contact exchange out. A proxy is stored in the coordinates of the
 /// body next to it, so it moves with that body. Force on the finger, with the touched body's material:
 ///   f = k (p_WP - p_WH), modified by the effects that the scene uses.
+/// Tools with volume have a renderer of their own (framework/haptics/tool_renderer.h).
 /// The collision thread's neighbourhoods limit the bodies to examine; without a neighbourhood all bodies are examined.
 /// Thread: haptic; nonblocking. Errors: none; an invalid device sample gives zero force and keeps the proxy.
 class HapticsProxy final : public Module, public PluginHost {
@@ -51,6 +53,7 @@ class HapticsProxy final : public Module, public PluginHost {
     ForceEffects effects;
     Out<EffectReactions> reactions;
   };
+  void addFingertips(const HapticEffects& effects, const SurfacesInForce& in_force);
   SurfacesInForce surfaces(const HapticEffects& effects);
   std::unique_ptr<FrictionStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   void stepFinger(std::size_t finger, const Tick& tick) noexcept;
@@ -60,9 +63,10 @@ class HapticsProxy final : public Module, public PluginHost {
   std::shared_ptr<const World> world_;
   HapticEffects effects_;
   Touchables touchables_;
-  std::vector<RenderedFinger> fingers_;
+  std::vector<RenderedFinger> fingers_;    ///< as Scene::devices; empty if all of them are tools
+  std::vector<std::size_t> fingertips_;    ///< the indices of those that are no tools
   std::vector<PlaceBodies> place_bodies_;  ///< none or one
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<Renderer> renderer_;     ///< null: no fingertips
   BoundedList<RenderedContact> own_contacts_;  ///< of the renderer, in this finger's tick
   std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
@@ -76,6 +80,7 @@ class HapticsProxy final : public Module, public PluginHost {
   std::optional<In<BodyHits>> hits_;                     // only if a surface effect hears them
   std::vector<std::unique_ptr<Commanded>> commanded_;    // none or one
   std::vector<std::unique_ptr<Effects>> force_effects_;  // none or one
+  std::vector<std::unique_ptr<HeldTools>> tools_;        // none or one
   Out<ContactExchange> contact_{*this, "contact_exchange"};
 };
 

@@ -20,6 +20,8 @@ constexpr double kPenRadius = 0.003;
 constexpr double kShaftRadius = 0.0013;
 constexpr double kHeadRadius = 0.0034;
 constexpr double kHeadLength = 0.009;
+constexpr float kToolOpacity = 0.85F;
+constexpr double kToolCrease = 0.6;  ///< angle between faces above which their edge is drawn sharp [rad]
 constexpr double kConeShortest = 0.004, kConeLongest = 0.12;  ///< heights [m]
 
 /// Blended, without depth writes, in render bin `order` (after opaque objects).
@@ -49,7 +51,7 @@ ConeSize coneSize(const FingerView& view) {
   return {height, height * std::max(view.friction_static, 1e-3)};
 }
 
-ContactGlyphs::ContactGlyphs(std::size_t fingers) {
+ContactGlyphs::ContactGlyphs(const World& world) : world_(world) {
   root_->setName("contacts");
   osg::StateSet* solid = solid_->getOrCreateStateSet();
   solid->setAttributeAndModes(shaders::glyph());
@@ -77,7 +79,7 @@ ContactGlyphs::ContactGlyphs(std::size_t fingers) {
        {static_cast<osg::Node*>(solid_), static_cast<osg::Node*>(arrows_), static_cast<osg::Node*>(through),
         static_cast<osg::Node*>(cones_), static_cast<osg::Node*>(tips_)})
     root_->addChild(part);
-  fingers_.resize(fingers);
+  fingers_.resize(world.scene.devices.size());
   setQuick(false);
 }
 
@@ -85,14 +87,22 @@ void ContactGlyphs::setQuick(bool quick) {
   tips_->getOrCreateStateSet()->setAttributeAndModes(shaders::skin(quick));
   for (osg::Group* group : {solid_.get(), arrows_.get(), cones_.get(), tips_.get()})
     group->removeChildren(0, group->getNumChildren());
-  for (FingerGlyph& finger : fingers_) finger = makeFinger(quick ? kQuick : kFine);
+  for (std::size_t i = 0; i < fingers_.size(); ++i)
+    fingers_[i] = makeFinger(i < world_.tools.size() ? world_.tools[i].get() : nullptr, quick ? kQuick : kFine);
 }
 
-ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger(const Roundness& round) {
+ContactGlyphs::FingerGlyph ContactGlyphs::makeFinger(const TriMesh* tool, const Roundness& round) {
   FingerGlyph finger;
   finger.hip = placed(sphereGeometry(kHipRadius, kHipColor, round), *solid_);
   finger.link = placed(unitShaft(kHipColor, round), *solid_);
-  finger.tip = placed(sphereGeometry(1, kSkinColor, round), *tips_);
+  finger.tip = placed(tool != nullptr ? meshGeometry(shadeWithCreases(*tool, kToolCrease), kToolColor)
+                                      : sphereGeometry(1, kSkinColor, round),
+                      *tips_);
+  if (tool != nullptr) {  // a solid thing, through which one still sees where it goes
+    osg::StateSet* state = finger.tip->getOrCreateStateSet();
+    state->setAttributeAndModes(shaders::glyph());
+    state->addUniform(new osg::Uniform("opacity", kToolOpacity));
+  }
   finger.pen = placed(unitShaft(kPenColor, round), *solid_);
   finger.shaft = placed(unitShaft(kArrowColor, round), *arrows_);
   finger.head = placed(unitConeUp(kArrowColor, round), *arrows_);
@@ -124,9 +134,9 @@ void ContactGlyphs::update(const std::vector<FingerView>& fingers) {
     const Vec3 link = view.p_WP - view.p_WH;
     setShown(*finger.link, view.valid && link.norm() > 1e-5);
     if (link.norm() > 1e-5) finger.link->setMatrix(alongZ(view.p_WH, link, {kLinkRadius, kLinkRadius, link.norm()}));
-    finger.tip->setMatrix(toOsg(Pose{view.p_WP, Quat::Identity()}));
-    finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
-    setShown(*finger.pen, view.valid && view.oriented);
+    finger.tip->setMatrix(toOsg(view.has_volume ? view.X_WT : Pose{view.p_WP, Quat::Identity()}));
+    if (!view.has_volume) finger.tip->preMult(osg::Matrixd::scale(view.radius, view.radius, view.radius));
+    setShown(*finger.pen, view.valid && view.oriented && !view.has_volume);
     if (view.oriented)
       finger.pen->setMatrix(alongZ(view.p_WP, view.q_WT * Vec3::UnitZ(), {kPenRadius, kPenRadius, kPenLength}));
     finger.tip_color->set(osg::Vec3(toOsg(stateColor(view.mode))));

@@ -33,6 +33,15 @@ void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, F
   finger.friction = contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static;
 }
 
+// Where nobody says how the body holds a tool, it is turned as its handle.
+void placeTool(const World& world, const ViewFrame& frame, std::size_t i, FingerView& finger) {
+  if (i >= world.tools.size() || !world.tools[i]) return;
+  const bool known = frame.tools != nullptr && i < frame.tools->tools.size() && frame.tools->tools[i].alive;
+  finger.has_volume = true;
+  finger.radius = radiusOf(*world.tools[i]);
+  finger.X_WT = known ? frame.tools->tools[i].X_WT : Pose{finger.p_WP, finger.q_WT};
+}
+
 }  // namespace
 
 std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) {
@@ -50,8 +59,8 @@ std::vector<FingerView> fingerViews(const World& world, const ViewFrame& frame) 
       finger.oriented = frame.device.fingers[i].oriented;
       finger.q_WT = frame.device.fingers[i].q_WT;
     }
-    if (index >= frame.contacts.count()) continue;
-    placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+    if (index < frame.contacts.count()) placeContact(frame.contacts.fingers[i], frame.X_WB, finger);
+    placeTool(world, frame, i, finger);
     if (index < frame.forces.count() && finger.touches())
       finger.commanded_normal = std::max(0.0, frame.forces.f_H_W[i].dot(finger.nhat_W));
   }

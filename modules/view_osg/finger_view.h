@@ -17,9 +17,11 @@ struct FingerView {
   bool valid = false;  ///< the device delivers usable samples
   ContactMode mode = ContactMode::kNone;
   std::int32_t body = kNoBody;
-  double radius = 0;      ///< fingertip radius [m]
+  double radius = 0;      ///< fingertip radius, or that of a ball around the tool [m]
   bool oriented = false;  ///< the device measures the tool's orientation
   Quat q_WT = Quat::Identity();
+  bool has_volume = false;      ///< a tool: its mesh is drawn at X_WT instead of a fingertip
+  Pose X_WT;                    ///< of the tool, held off the bodies
   Vec3 p_WH = Vec3::Zero();     ///< HIP [m]
   Vec3 p_WP = Vec3::Zero();     ///< proxy, relative to the body as drawn [m]
   Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]

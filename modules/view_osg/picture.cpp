@@ -30,7 +30,7 @@ std::vector<Pose> startPoses(const World& world) {
 Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
     : world_(std::move(world)),
       bodies_(*world_),
-      glyphs_(world_->scene.devices.size()),
+      glyphs_(*world_),
       parts_(options.show),
       overlays_(*world_),
       neighbourhoods_(*world_),

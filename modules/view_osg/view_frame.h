@@ -8,6 +8,7 @@
 #include "framework/core/state/finger_neighbourhood.h"
 #include "framework/scene/frame_state.h"
 #include "framework/scene/joints/joint_positions.h"
+#include "framework/scene/tool_state.h"
 
 namespace presa::view {
 
@@ -21,6 +22,7 @@ struct ViewFrame {
   DeviceState device;
   ContactExchange contacts;
   ForceCommand forces;
+  const ToolStates* tools = nullptr;   ///< value of the port; null: not connected
   const FrameState* frames = nullptr;  ///< value of the port; null: the rig has no frames
   std::optional<Guidance> guidance;    ///< only in scenes with an assembly
 };

@@ -31,6 +31,7 @@ ViewModule::ViewModule(std::shared_ptr<const World> world, const RunOptions& opt
   for (const Body& body : world_->scene.bodies) frame_.X_WB.push_back(body.X_WB);
   frame_.asleep.resize(frame_.X_WB.size());
   if (!world_->rig.frames.empty()) frames_.emplace(*this, kFramesPort, In<FrameState>::Optional{});
+  if (world_->scene.hasTools()) tools_.emplace(*this, kToolStatesPort, In<ToolStates>::Optional{});
   if (!options_.video.empty()) video_.emplace(options_.video, options_.picture.video_rate);
   const ShownParts asked(options_.show);
   if (windowed() || asked[ShownPart::kPatches])
@@ -158,6 +159,7 @@ void ViewModule::copyPorts(const Tick& tick) {
   frame_.forces = force_command_.value();
   if (neighbourhoods_ && neighbourhoods_->hasValue()) frame_.neighbourhoods = &neighbourhoods_->value();
   if (joint_positions_.connected()) frame_.joint_positions = &joint_positions_.value();
+  if (tools_ && tools_->hasValue()) frame_.tools = &tools_->value();
   if (frames_ && frames_->hasValue()) frame_.frames = &frames_->value();
   if (guidance_.connected()) frame_.guidance = guidance_->now;
   if (!object_state_.hasValue()) return;

@@ -76,6 +76,7 @@ class ViewModule final : public View {
   std::optional<Out<PointerState>> pointer_out_;            ///< only with a pointer device or frames that a user moves
   std::optional<PointerControl> pointer_;
   std::optional<FrameKeys> frame_keys_;   ///< only where the rig has frames that a user moves
+  std::optional<In<ToolStates>> tools_;   ///< only where the scene has tools
   std::optional<In<FrameState>> frames_;  ///< only where the rig has frames
   TimeControl* time_ = nullptr;
   walls::Canvas* canvas_ = nullptr;   ///< only on a wall

@@ -99,6 +99,7 @@ std::string reportHtml(const RunResult& result) {
   out +=
       verdictBlock(result) + graspSection(result, grasp) + pathSection(result, grasp) + frictionSection(result, grasp);
   if (!result.contact_points.empty()) out += "<h2>Contact points</h2>\n" + html::contactTable(result);
+  if (!result.tools.empty()) out += "<h2>Tools</h2>\n" + html::toolTable(result);
   if (!result.objects.empty()) out += "<h2>Objects</h2>\n" + html::objectTable(result);
   out += html::jointSection(result.joints);
   out += html::printedSection(result);

@@ -81,6 +81,16 @@ std::string contactTable(const RunResult& result) {
       rows);
 }
 
+std::string toolTable(const RunResult& result) {
+  std::string rows;
+  for (const ToolSummary& tool : result.tools)
+    rows += row({escape(tool.name), count(tool.touched), fixed(tool.deepest * 1000, 4), count(tool.most_points),
+                 count(tool.coarse), count(tool.late)});
+  return table({"tool", "ticks in contact", "deepest [mm]", "most points in contact", "ticks examined coarsely",
+                "ticks out of balance"},
+               rows);
+}
+
 std::string objectTable(const RunResult& result) {
   std::string rows;
   for (const RunResult::Object& object : result.objects) {

@@ -11,6 +11,7 @@ namespace presa::html {
 std::string graspTiles(const GraspFigures& grasp);
 std::string graspTable(const RunResult& result, const GraspFigures& grasp);
 std::string contactTable(const RunResult& result);
+std::string toolTable(const RunResult& result);
 std::string objectTable(const RunResult& result);
 std::string rateTable(const RunResult& result);
 std::string faultsAndNotes(const RunResult& result);

@@ -41,6 +41,18 @@ std::string contactTable(const RunResult& result) {
   return out;
 }
 
+/// Of tools with volume. Coarse: ticks that examined the tool's surface more coarsely than it is given; late: ticks that
+/// did not bring tool and forces into balance.
+std::string toolTable(const RunResult& result) {
+  std::string out = format("  %-14s %8s %10s %11s %9s %9s\n", "tool", "ticks", "deepest mm", "most points", "coarse",
+                           "late");
+  for (const ToolSummary& tool : result.tools) {
+    out += format("  %-14s %8u %10.3f %11u %9u %9u\n", printable(tool.name).c_str(), tool.touched, 1e3 * tool.deepest,
+                  tool.most_points, tool.coarse, tool.late);
+  }
+  return out;
+}
+
 /// At most 80 columns, in real time, too.
 std::string rateTable(const RunResult& result) {
   std::string out = format("  %-14s %6s %9s %7s %7s %7s", "rate", "Hz", "ticks", "late", "p50 us", "p99 us");
@@ -82,7 +94,7 @@ std::string closingText(const RunResult& result, const std::string& summary_file
   for (const std::string& detail : verdict.details) out += lines(printableLines(detail)) + "\n";
   for (const std::string& warning : verdict.warnings)
     out += styled(lines("warning: " + printable(warning)), Style::kWarning, color) + "\n";
-  out += contactTable(result) + rateTable(result);
+  out += contactTable(result) + (result.tools.empty() ? std::string() : toolTable(result)) + rateTable(result);
   const double speed = result.wall_seconds > 0 ? result.simulated_seconds / result.wall_seconds : 0;
   out += format("  %.3f s simulated in %.3f s (%.1fx), state hash %s\n", result.simulated_seconds, result.wall_seconds,
                 speed, hashText(result.state_hash).c_str());

@@ -18,6 +18,7 @@ enum class ContactMode : std::int32_t { kNone = 0, kStick = 1, kSlip = 2 };
 struct ToolContact {
   std::int32_t body = kNoBody;    ///< index into Scene::bodies
   Vec3 p_BP = Vec3::Zero();       ///< where the force acts: the proxy, coordinates of `body` [m]
+  Vec3 p_WP = Vec3::Zero();       ///< the same in W [m]
   Vec3 nhat_B = Vec3::UnitZ();    ///< direction of the normal force on the finger, coordinates of `body`
   Vec3 v_WH = Vec3::Zero();       ///< velocity of the spring's end at the finger [m/s]
   Vec3 stretch_W = Vec3::Zero();  ///< spring force on the finger: stiffness * stretch_W [m]
@@ -26,17 +27,15 @@ struct ToolContact {
   double damping = 0;             ///< along the normal [N s/m]
   // friction, as in FingerContact
   ContactMode mode = ContactMode::kNone;  ///< at this body
-  double friction_static = 0,             ///< bound of tangential over normal force while sticking
-      friction_dynamic = 0;               ///< the same while slipping
+  double friction_static = 0, friction_dynamic = 0;  ///< bound of tangential over normal force: sticks, slips
   double tangential_ratio = 1;            ///< tangential stiffness / stiffness
   double tangential_damping = 0;          ///< share of the finger's [N s/m]
   Vec3 damped_W = Vec3::Zero();           ///< part of stretch_W that tangential damping causes [m]
   Vec3 f_H_W = Vec3::Zero();              ///< rendered force on the finger, damping and friction included [N]
 };
 
-/// Contact of one finger. nhat points from the body into the finger; depth >= 0 when they overlap. Where several bodies
-/// hold the finger, `body` bears the largest share, friction is that with it, and mode, depth and forces are those of
-/// the whole contact: it slips if all bodies slip.
+/// Contact of one finger. nhat: from the body into the finger; depth >= 0 when they overlap. Of several bodies that hold
+/// it, `body` bears the largest share and gives the friction; mode (slip: all slip), depth and forces are of the whole.
 struct FingerContact {
   ContactMode mode = ContactMode::kNone;   ///< of the whole contact; kNone: `body` is kNoBody
   std::int32_t body = kNoBody;             ///< index into Scene::bodies; kNoBody: none
@@ -67,6 +66,7 @@ struct FingerContact {
   bool twist_slips = false;         ///< the torque is that of dynamic friction
   std::uint32_t first_contact = 0;  ///< index into ContactExchange::contacts
   std::uint32_t contact_count = 0;  ///< bodies that hold the finger
+  bool has_volume = false;          ///< a tool: only its contacts say where forces act
 };
 
 /// Contacts and rendered forces of one haptic tick, for the dynamics, the collision query, the

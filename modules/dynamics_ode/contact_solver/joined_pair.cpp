@@ -12,6 +12,7 @@
 
 #include "modules/dynamics_ode/contact_solver/joint_rows.h"
 #include "modules/dynamics_ode/index.h"
+#include "modules/dynamics_ode/joints/joint_pose.h"
 #include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {
@@ -87,7 +88,10 @@ struct Side {
   void take(ContactProblem& problem, std::int32_t i, const Mat3& R_JW, const Vec3& p_WJ, double h);
   void addTo(Matrix6& compliance) const;
   Row6 velocity() const;
+  /// All but its turn.
   void move(const Mat3& R_JW, const Row6& impulse, double h);
+  void turnAlone(double h) { magnusRotation(X_WCm.q, w_end_W, body->inertia_B, body->inverse_inertia_B, h); }
+  Turning turning() { return {X_WCm.q, w_end_W, body->inertia_B, body->inverse_inertia_B}; }
   bool turnsFast(double force, double h) const {
     if (body == nullptr) return false;
     const double reach = std::sqrt(lever.squaredNorm() / 2);
@@ -129,14 +133,20 @@ void Side::move(const Mat3& R_JW, const Row6& impulse, double h) {
   v_end_W = R_JW.transpose() * (v + push / body->mass);
   w_end_W = R_JW.transpose() * (w + inverse_inertia * (lever * push + turn));
   X_WCm = {body->p_WCm + h * v_end_W, body->q_WB};
-  magnusRotation(X_WCm.q, w_end_W, body->inertia_B, body->inverse_inertia_B, h);
+}
+
+void turn(Side& A, Side& B, double h) {
+  if (A.body != nullptr && B.body != nullptr) return magnusRotations(A.turning(), B.turning(), h);
+  for (Side* side : {&A, &B}) {
+    if (side->body != nullptr) side->turnAlone(h);
+  }
 }
 
 // What the joint is open in its six rows.
 Row6 gapIn(JointType type, const JointPose& at) {
   Row6 gap;
   if (type == JointType::kHinge) {
-    const Vec3 z = at.q_J * Vec3::UnitZ();
+    const Vec3 z = rotated(at.q_J, Vec3::UnitZ());
     gap << at.p_J, -z.y(), z.x(), 0;
   } else {
     gap << at.p_J, 2 * std::copysign(1.0, at.q_J.w()) * at.q_J.vec();
@@ -150,7 +160,7 @@ class Pair {
       : joint_(problem.joints[0]), type_(joint_.joint->type), locked_(lockedRowsOf(type_)), h_(h) {
     const Pose X_WA = centreOf(problem, joint_.A), X_WB = centreOf(problem, joint_.B);
     R_JW_ = (X_WA.q * joint_.frames.X_AJ.q).conjugate().toRotationMatrix();
-    const Vec3 p_WJ = X_WB * joint_.frames.X_BJ.p;  // for both: their angular momentum is then kept
+    const Vec3 p_WJ = X_WB.p + rotated(X_WB.q, joint_.frames.X_BJ.p);  // for both: their angular momentum is then kept
     A_.take(problem, joint_.A, R_JW_, p_WJ, h);
     B_.take(problem, joint_.B, R_JW_, p_WJ, h);
   }
@@ -242,11 +252,12 @@ class Pair {
     }
     A_.move(R_JW_, -impulse_, h_);
     B_.move(R_JW_, impulse_, h_);
+    turn(A_, B_, h_);
   }
 
   // Moves the goals by what the joint misses at the end of the step; returns the largest [m/s, rad/s].
   double correct() {
-    const JointPose at = presa::poseOf(joint_.frames, B_.X_WCm, A_.X_WCm);
+    const JointPose at = jointPoseOf(joint_.frames, B_.X_WCm, A_.X_WCm);
     const Row6 end = gapIn(type_, at);
     double largest = 0;
     if (laws_.count > 0) {

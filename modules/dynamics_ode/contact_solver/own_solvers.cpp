@@ -67,6 +67,7 @@ template <class IslandOf>
 void OwnSolvers::Members::sort(std::size_t count, std::size_t islands, IslandOf island_of) {
   first.assign(islands + 2, 0);
   items.resize(count);
+  if (count == 0) return;
   for (std::size_t i = 0; i < count; ++i) ++first[std::min(island_of(i), islands) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   for (std::size_t i = 0; i < count; ++i) items[first[std::min(island_of(i), islands)]++] = i;
@@ -74,19 +75,27 @@ void OwnSolvers::Members::sort(std::size_t count, std::size_t islands, IslandOf 
   first[0] = 0;
 }
 
-ContactProblem::Body OwnSolvers::bodyOf(std::size_t i) const {
+// Filled in place: a copy of what was just written number by number would wait for that.
+void OwnSolvers::addBody(std::size_t i) {
+  place_[i] = static_cast<std::int32_t>(problem_.bodies.size());
+  ContactProblem::Body& body = problem_.bodies.emplace_back();
   const BodySet::Motion motion = bodies_.motion(i);
+  body.p_WCm = motion.p_WCm;
+  body.v_WCm = motion.v_WCm;
+  body.w_WB = motion.w_WB;
+  body.q_WB = motion.q_WB;
   const BodySet::Load load = bodies_.load(i, gravity_W_);
-  return {motion.p_WCm, motion.v_WCm,         motion.w_WB,  motion.q_WB,  load.mass,
-          load.inertia, load.inverse_inertia, load.force_W, load.torque_W};
+  body.mass = load.mass;
+  body.inertia_B = load.inertia;
+  body.inverse_inertia_B = load.inverse_inertia;
+  body.force_W = load.force_W;
+  body.torque_W = load.torque_W;
 }
 
 void OwnSolvers::gather(std::size_t island, const FingerJoints& fingers, const JointSet* links) {
   problem_.clear();
   for (std::size_t k = members_.first[island]; k < members_.first[island + 1]; ++k) {
-    const std::size_t i = members_.items[k];
-    place_[i] = static_cast<std::int32_t>(problem_.bodies.size());
-    problem_.bodies.push_back(bodyOf(i));
+    addBody(members_.items[k]);
   }
   for (std::size_t k = contacts_.first[island]; k < contacts_.first[island + 1]; ++k) {
     const BodyContact& c = joints_.contact(contacts_.items[k]);

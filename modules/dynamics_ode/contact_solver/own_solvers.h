@@ -44,7 +44,7 @@ class OwnSolvers {
   void gather(std::size_t island, const FingerJoints& fingers, const JointSet* links);
   void solveProblem(std::size_t island, double h);
   void giveBack(std::size_t island, FingerJoints& fingers, JointSet* links);
-  ContactProblem::Body bodyOf(std::size_t i) const;
+  void addBody(std::size_t i);
   bool isRough(std::size_t island) const;
   bool wobbles(double h) const;
   void backOff(std::size_t island);

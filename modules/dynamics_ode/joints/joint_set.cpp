@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "modules/dynamics_ode/joints/joint_pose.h"
+
 namespace presa::ode {
 namespace {
 
@@ -49,7 +51,7 @@ void JointSet::link(const BodySet& bodies, Islands& islands) const {
 void JointSet::read(const BodySet& bodies) {
   for (Link& link : links_) {
     const Joint& joint = *link.joint;
-    link.at = presa::poseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
+    link.at = jointPoseOf(link.frames, poseNow(joint.body, link.X_WB, bodies), poseNow(joint.to, link.X_WA, bodies));
     for (std::size_t i = 0; i < joint.axes.size(); ++i) {
       if (!needsPosition(joint.axes[i])) continue;
       const JointAxis& axis = joint.axes[i];

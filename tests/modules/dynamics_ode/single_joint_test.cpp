@@ -216,6 +216,29 @@ TEST(SingleJoint, MagnusRotationFollowsASymmetricTop) {
   EXPECT_LT(turnBetween(expected, q).norm(), 1e-7);
 }
 
+// Side by side, whether they can share their sub-steps and the kind of inertia or not.
+TEST(SingleJoint, MagnusRotationOfTwoBodiesIsThatOfEach) {
+  const Mat3 R = turn(0.7, Vec3(2, -1, 2) / 3).toRotationMatrix();
+  const Mat3 straight = Vec3(1e-5, 2e-5, 2.5e-5).asDiagonal(), oblique = R * straight * R.transpose();
+  for (const auto& [inertia_A, inertia_B] : {std::pair(straight, straight), std::pair(oblique, oblique),
+                                             std::pair(straight, oblique), std::pair(oblique, straight)}) {
+    const Mat3 inverse_A = inertia_A.inverse(), inverse_B = inertia_B.inverse();
+    for (const double spin : {0.0, 3.0, 40.0}) {
+      Quat q_A = turn(0.4, Vec3(1, 2, 2) / 3), q_B = turn(-1.3, Vec3(2, 2, -1) / 3);
+      Vec3 w_A(3, 8, -2), w_B = spin * Vec3(0.3, -0.9, 0.4);
+      Quat alone_A = q_A, alone_B = q_B;
+      Vec3 spin_A = w_A, spin_B = w_B;
+      magnusRotation(alone_A, spin_A, inertia_A, inverse_A, 0.005);
+      magnusRotation(alone_B, spin_B, inertia_B, inverse_B, 0.005);
+      magnusRotations({q_A, w_A, inertia_A, inverse_A}, {q_B, w_B, inertia_B, inverse_B}, 0.005);
+      EXPECT_EQ(q_A.coeffs(), alone_A.coeffs());
+      EXPECT_EQ(q_B.coeffs(), alone_B.coeffs());
+      EXPECT_EQ(w_A, spin_A);
+      EXPECT_EQ(w_B, spin_B);
+    }
+  }
+}
+
 TEST(SingleJoint, StepAllocatesNothing) {
   if (!RealTimeGuard::active()) GTEST_SKIP() << "the sanitizers own these functions";
   WorldMaker maker;

@@ -1,0 +1,15 @@
+#pragma once
+#include <optional>
+
+#include "framework/geometry/distance_field.h"
+#include "framework/geometry/tri_mesh.h"
+
+namespace presa {
+
+/// The field of a closed mesh, with adjacency: from the user's cache (framework/input/cache.h) by the content of mesh and
+/// settings, or built and, if that took long, kept there. A cache that cannot be read or is damaged is none. None: larger
+/// than settings.max_bytes; `size` then says by how much. Thread: before a run.
+std::optional<DistanceField> cachedField(const TriMesh& mesh, const DistanceField::Settings& settings,
+                                         DistanceField::Size& size);
+
+}  // namespace presa

@@ -1,0 +1,126 @@
+#include "modules/pointshell/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "framework/haptics/touchables.h"
+#include "modules/pointshell/field_cache.h"
+
+namespace presa {
+namespace {
+
+constexpr double kVoxelsAlong = 200;  // of the mesh's longest side, where the scene says nothing
+
+using SharedField = std::shared_ptr<const DistanceField>;
+
+void refuseOpen(const Body& body, const TriMesh& mesh) {
+  const MeshReport report = checkMesh(mesh);
+  if (report.closed() && report.flipped_edges == 0) return;
+  throw std::invalid_argument("the haptic mesh of body '" + body.name + "' is open or folded (" +
+                              std::to_string(report.open_edges) + " open edges): a distance field needs an inside; "
+                              "close the mesh, or give a primitive");
+}
+
+SharedField fieldOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings, std::size_t used) {
+  refuseOpen(body, mesh);
+  const AxisBox bounds = boundsOf(mesh);
+  const double voxel = settings.voxel > 0 ? settings.voxel : (bounds.high - bounds.low).maxCoeff() / kVoxelsAlong;
+  const DistanceField::Settings wanted{.voxel = voxel, .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes)};
+  DistanceField::Size size;
+  if (std::optional<DistanceField> field = cachedField(mesh, wanted, size))
+    return std::make_shared<const DistanceField>(*std::move(field));
+  throw std::invalid_argument("the distance field of body '" + body.name + "' needs " +
+                              std::to_string((size.bytes >> 20U) + 1) + " MiB with voxels of " +
+                              std::to_string(1e3 * voxel) + " mm, and " + std::to_string(wanted.max_bytes >> 20U) +
+                              " MiB are left: a larger voxel, or more memory");
+}
+
+}  // namespace
+
+double Solid::lowerBound(const Vec3& p_B) const noexcept {
+  return field ? field->lowerBound(X_BG.inverseTimes(p_B)) : nearest(primitive, p_B).distance;
+}
+
+SeenSolid::SeenSolid(const Solid& solid, const Pose& X_BT) noexcept
+    : solid_(solid),
+      X_BT_(X_BT),
+      X_GT_((solid.field ? solid.X_BG : std::get<Primitive>(solid.primitive.shape).X_AG).inverse() * X_BT),
+      R_BT_(X_BT.q.toRotationMatrix()),
+      R_GT_(X_GT_.q.toRotationMatrix()) {
+  if (!solid.field) return;
+  voxel_ = solid.voxel();
+  turn_ = R_GT_ / voxel_;
+  shift_ = (X_GT_.p - solid.field->origin()) / voxel_;
+}
+
+// As nearest(primitive, p).distance, without the direction.
+double SeenSolid::exact(const Eigen::Vector3f& p_T) const noexcept {
+  const auto& primitive = std::get<Primitive>(solid_.primitive.shape);
+  const Vec3 p = X_GT_.p + R_GT_ * p_T.cast<double>();
+  if (primitive.kind == Primitive::Kind::kSphere) return p.norm() - primitive.radius;
+  if (primitive.kind == Primitive::Kind::kCapsule) {
+    const double beyond = std::max(0.0, std::abs(p.z()) - primitive.half_length);
+    return std::sqrt(p.x() * p.x() + p.y() * p.y() + beyond * beyond) - primitive.radius;
+  }
+  Vec3 out = p.cwiseAbs() - primitive.half;
+  if (primitive.kind == Primitive::Kind::kCylinder)
+    out = {std::hypot(p.x(), p.y()) - primitive.radius, std::abs(p.z()) - primitive.half_length, -1e9};
+  const double deepest = out.maxCoeff();
+  return deepest <= 0 ? deepest : out.cwiseMax(0).norm();
+}
+
+Vec3 SeenSolid::slope(const Eigen::Vector3f& p_T) const noexcept {
+  if (!solid_.field) return normal(p_T);
+  const Vec3 g = turn_ * p_T.cast<double>() + shift_;
+  return voxel_ * (turn_.transpose() * solid_.field->slopeInVoxels(g.x(), g.y(), g.z()).cast<double>());
+}
+
+Vec3 SeenSolid::normal(const Eigen::Vector3f& p_T) const noexcept {
+  if (!solid_.field) return R_BT_.transpose() * nearest(solid_.primitive, X_BT_.p + R_BT_ * p_T.cast<double>()).nhat;
+  const DistanceField& field = *solid_.field;
+  const Vec3 g = turn_ * p_T.cast<double>() + shift_;
+  const Eigen::Vector3f gradient(field.inVoxels(g.x() + 1, g.y(), g.z()) - field.inVoxels(g.x() - 1, g.y(), g.z()),
+                                 field.inVoxels(g.x(), g.y() + 1, g.z()) - field.inVoxels(g.x(), g.y() - 1, g.z()),
+                                 field.inVoxels(g.x(), g.y(), g.z() + 1) - field.inVoxels(g.x(), g.y(), g.z() - 1));
+  const Vec3 normal = turn_.transpose() * gradient.cast<double>();
+  const double length = normal.norm();
+  return length > 0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
+}
+
+double SeenSolid::voxelAt(const Eigen::Vector3f& p_T, Vec3& center_T) const noexcept {
+  center_T = p_T.cast<double>();
+  if (!solid_.field) return exact(p_T);
+  Vec3 center_G = Vec3::Zero();
+  const double distance = solid_.field->nearestSample(X_GT_ * center_T, center_G);
+  center_T = X_GT_.inverseTimes(center_G);
+  return distance;
+}
+
+std::vector<Solid> solidsOf(const World& world, const FieldSettings& settings) {
+  std::vector<Solid> solids;
+  std::map<const TriMesh*, SharedField> fields;
+  std::size_t used = 0;
+  for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+    const Body& body = world.scene.bodies[b];
+    if (!body.haptic) continue;
+    const auto index = static_cast<std::int32_t>(b);
+    if (const std::optional<Primitive> primitive = primitiveOf(*body.haptic)) {
+      solids.push_back({index, {index, -1, *primitive}, nullptr, {}});
+      continue;
+    }
+    const TriMesh* mesh = world.meshes[b].haptic.get();
+    if (mesh == nullptr) continue;
+    SharedField& field = fields[mesh];
+    if (!field) {
+      field = fieldOf(body, *mesh, settings, used);
+      used += field->roomBytes();
+    }
+    solids.push_back({index, {}, field, body.haptic->X_BG});
+  }
+  return solids;
+}
+
+}  // namespace presa
