@@ -24,6 +24,7 @@ constexpr double kExactStep = 0.0002;   // the same where all bodies are primiti
 constexpr double kMarginVoxels = 4;     // points this near are looked at, at the most
 constexpr double kAheadVoxels = 2;      // looked beyond that, so that the next ticks need not look again
 constexpr double kDamped = 0.5;         // of the last step, where the next one goes back
+constexpr double kOnItsWay = 2;         // motion in a tick, over that of an iteration, that leads somewhere
 constexpr double kNormalsHold = 0.2;    // of the max motion in an iteration: the normals of a smaller one stay
 constexpr std::size_t kMiB = std::size_t{1} << 20U;
 
@@ -154,7 +155,7 @@ double PointShellRenderer::longestStep(const Held& held, const Balance& at) cons
 bool PointShellRenderer::settle(const ToolInput& input, Held& held, Balance& at) const noexcept {
   const Pose start = at.X_WT;
   double left = kMarginVoxels / kStepVoxels * step_;  // way within which all points are known
-  Pose best = start;
+  Pose best = start, touched = start;  // the latter: the last one in contact
   double before = std::numeric_limits<double>::infinity(), least = before;
   Vec6 last = Vec6::Zero();
   double last_way = 0;
@@ -166,6 +167,7 @@ bool PointShellRenderer::settle(const ToolInput& input, Held& held, Balance& at)
       least = now;
       best = at.X_WT;
     }
+    if (!held.contact->touching().empty()) touched = at.X_WT;
     if (iteration == kIterations || left <= 0) break;
     before = now;
     Vec6 step = at.stiffness_T.partialPivLu().solve(at.residual_T);
@@ -181,7 +183,9 @@ bool PointShellRenderer::settle(const ToolInput& input, Held& held, Balance& at)
     const Mat3 R_WT = at.X_WT.q.toRotationMatrix();
     at.X_WT = movedBy(at.X_WT, (Vec6() << R_WT * step.head<3>(), R_WT * step.tail<3>()).finished());
   }
-  at.X_WT = best;
+  // On its way, over an edge for instance, it goes on; to and fro in one place, it stays at the best one.
+  const double gone = (touched.p - start.p).norm() + turnBetween(start.q, touched.q).norm() * held.shell.radius();
+  at.X_WT = gone > kOnItsWay * step_ ? touched : best;
   unbalanced(input, start, held, at);
   return least <= kNearly;
 }

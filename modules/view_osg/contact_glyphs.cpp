@@ -158,7 +158,7 @@ void ContactGlyphs::updateForce(const FingerView& view, FingerGlyph& finger) {
   const bool pulled = view.isPushed();
   setShown(*finger.shaft, pulled);
   setShown(*finger.head, pulled);
-  setShown(*finger.cone, view.touches());
+  setShown(*finger.cone, view.touches() && !view.has_volume);
   if (pulled) {
     const Vec3 direction = view.f_H_W.normalized();
     const double head = std::min(kHeadLength, 0.6 * length);

@@ -38,6 +38,7 @@ void placeTool(const World& world, const ViewFrame& frame, std::size_t i, Finger
   if (i >= world.tools.size() || !world.tools[i]) return;
   const bool known = frame.tools != nullptr && i < frame.tools->tools.size() && frame.tools->tools[i].alive;
   finger.has_volume = true;
+  finger.friction = finger.friction_static = 0;  // it touches on many sides: no cone around a common normal
   finger.radius = radiusOf(*world.tools[i]);
   finger.X_WT = known ? frame.tools->tools[i].X_WT : Pose{finger.p_WP, finger.q_WT};
 }

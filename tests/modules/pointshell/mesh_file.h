@@ -26,6 +26,7 @@ class MeshFile {
   MeshFile(const MeshFile&) = delete;
   MeshFile& operator=(const MeshFile&) = delete;
 
+  std::string path() const { return file_.string(); }
   /// A fixed body of it; `pose`: attributes.
   std::string body(const std::string& name, const std::string& material, const std::string& pose = "") const {
     return "<body name=\"" + name + "\" fixed=\"true\" material=\"" + material + "\" " + pose +
