@@ -159,11 +159,14 @@ function(presa_test name)
   target_compile_definitions(test_${name} PRIVATE PRESA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PRESA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   if(PRESA_SANITIZE)
     target_compile_definitions(test_${name} PRIVATE PRESA_SANITIZE) # tests/support/effort.h
+    set(timeout 1200) # whole programs run ten times as long
+  else()
+    set(timeout 300)
   endif()
   if(ARG_LAUNCHER)
     set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")
   endif()
-  set(properties TIMEOUT 300 LABELS ${name} RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
+  set(properties TIMEOUT ${timeout} LABELS ${name} RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
   foreach(suite IN LISTS ARG_TOGETHER)
     add_test(NAME ${suite} COMMAND test_${name} --gtest_filter=${suite}.*)
     set_tests_properties(${suite} PROPERTIES ${properties} COST 100) # begins early

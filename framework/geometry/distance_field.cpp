@@ -7,7 +7,7 @@
 namespace presa {
 namespace {
 
-constexpr std::uint64_t kKind = 0x31646C6569467250;  // "PrField1"
+constexpr std::uint64_t kFieldKind = 0x31646C6569467250;  // "PrField1"
 
 }  // namespace
 
@@ -67,8 +67,7 @@ double DistanceField::lowerBound(const Vec3& p) const noexcept {
   const auto index = static_cast<std::size_t>(block.x() + blocks_[0] * (block.y() + blocks_[1] * block.z()));
   if (stored_[index] != kCoarse) return at(p) - 2 * kHalfDiagonal * voxel_;
   const Vec3 corner = (g / kBlock).array().round();
-  const auto c = static_cast<std::size_t>(corner.x() +
-                                          (blocks_[0] + 1) * (corner.y() + (blocks_[1] + 1) * corner.z()));
+  const auto c = static_cast<std::size_t>(corner.x() + (blocks_[0] + 1) * (corner.y() + (blocks_[1] + 1) * corner.z()));
   const double there = static_cast<double>(corners_[c]), way = (g - kBlock * corner).norm();
   return voxel_ * (there - way);
 }
@@ -79,8 +78,7 @@ float DistanceField::coarseAt(double x, double y, double z) const noexcept {
   const int i = static_cast<int>(g[0]), j = static_cast<int>(g[1]), k = static_cast<int>(g[2]);
   const int row = blocks_[0] + 1, layer = row * (blocks_[1] + 1);
   return trilinear(corners_.data() + i + row * j + static_cast<std::ptrdiff_t>(layer) * k, row, layer,
-                   static_cast<float>(g[0] - i),
-                   static_cast<float>(g[1] - j), static_cast<float>(g[2] - k));
+                   static_cast<float>(g[0] - i), static_cast<float>(g[1] - j), static_cast<float>(g[2] - k));
 }
 
 // The surface is inside of the grid, so the way to the grid is a lower bound.
@@ -93,7 +91,7 @@ float DistanceField::beyond(double x, double y, double z) const noexcept {
 std::string DistanceField::bytes() const {
   std::string out;
   const auto put = [&](const void* from, std::size_t size) { out.append(static_cast<const char*>(from), size); };
-  put(&kKind, sizeof kKind);
+  put(&kFieldKind, sizeof kFieldKind);
   put(&voxel_, sizeof voxel_);
   put(origin_.data(), 3 * sizeof(double));
   put(blocks_.data(), sizeof blocks_);
@@ -115,12 +113,13 @@ std::optional<DistanceField> DistanceField::fromBytes(const std::string& bytes) 
   std::uint64_t kind = 0;
   double voxel = 0;
   Vec3 origin;
-  if (!get(&kind, sizeof kind) || kind != kKind || !get(&voxel, sizeof voxel) ||
+  if (!get(&kind, sizeof kind) || kind != kFieldKind || !get(&voxel, sizeof voxel) ||
       !get(origin.data(), 3 * sizeof(double)) || !get(field.blocks_.data(), sizeof field.blocks_))
     return std::nullopt;
   const auto [x, y, z] = field.blocks_;
   constexpr int kMost = 4096;
-  if (!(voxel > 0) || !origin.allFinite() || std::min({x, y, z}) < 1 || std::max({x, y, z}) > kMost) return std::nullopt;
+  if (!(voxel > 0) || !origin.allFinite() || std::min({x, y, z}) < 1 || std::max({x, y, z}) > kMost)
+    return std::nullopt;
   const std::size_t corners = std::size_t{1} * static_cast<std::size_t>(x + 1) * static_cast<std::size_t>(y + 1) *
                               static_cast<std::size_t>(z + 1);
   if (corners > bytes.size()) return std::nullopt;

@@ -28,8 +28,8 @@ class DistanceField {
   using Exact = std::function<double(const Vec3& p, double bound)>;
   /// How finely a field is sampled.
   struct Settings {
-    double voxel = 0.0005;                          ///< edge of a voxel [m]
-    double band = 3;                                ///< samples are stored up to this distance from the surface [voxels]
+    double voxel = 0.0005;  ///< edge of a voxel [m]
+    double band = 3;        ///< samples are stored up to this distance from the surface [voxels]
     std::size_t max_bytes = std::size_t{1} << 28U;  ///< a larger field is refused before it is built
     GoOn go_on = {};                                ///< called by one thread only
   };
@@ -45,7 +45,7 @@ class DistanceField {
   static std::optional<DistanceField> build(const Exact& exact, const AxisBox& bounds, const Settings& settings,
                                             Size* size = nullptr);
 
-  double voxel() const noexcept { return voxel_; }        ///< edge of a voxel [m]
+  double voxel() const noexcept { return voxel_; }         ///< edge of a voxel [m]
   const Vec3& origin() const noexcept { return origin_; }  ///< corner of the grid with the smallest coordinates [m]
   AxisBox box() const noexcept;                            ///< of the grid [m]
   std::size_t storedBlocks() const noexcept { return samples_.size() / kSamples; }  ///< in the narrow band
@@ -68,8 +68,9 @@ class DistanceField {
   /// A lower bound of the distance of p from the surface that holds for the solid itself [m].
   double lowerBound(const Vec3& p) const noexcept;
 
-  /// Everything as bytes, and back; none: damaged, or of another version. `voxel` of the result is positive.
+  /// Everything as bytes.
   std::string bytes() const;
+  /// The field that gave these bytes; none: damaged, or of another version.
   static std::optional<DistanceField> fromBytes(const std::string& bytes);
 
  private:

@@ -39,8 +39,8 @@ double MeshDistance::operator()(const Vec3& p, double bound) const {
   std::array<Vec3, 3> corner;
   for (std::size_t i = 0; i < 3; ++i) corner[i] = mesh_.vertices[static_cast<std::size_t>(triangle[i])];
   const Vec3 nearest = closestOnTriangle(p, corner[0], corner[1], corner[2]);
-  const double longest = std::max({(corner[1] - corner[0]).norm(), (corner[2] - corner[1]).norm(),
-                                   (corner[0] - corner[2]).norm()});
+  const double longest =
+      std::max({(corner[1] - corner[0]).norm(), (corner[2] - corner[1]).norm(), (corner[0] - corner[2]).norm()});
   Vec3 normal = face_normal_[t];
   for (std::size_t i = 0; i < 3; ++i) {
     if ((nearest - corner[i]).norm() <= kOnFeature * longest) {

@@ -14,35 +14,36 @@ namespace {
 
 using Vec3f = PointShell::Vec3f;
 
-constexpr double kSharp = 0.9;         // cosine between the normals of two faces below which their edge is sharp
-constexpr double kPerSpacing = 0.8;    // points that fit into an area of spacing^2
-constexpr double kCandidates = 4;      // per point that fits
-constexpr double kCoarsest = 256;      // points of the first level, about
-constexpr std::uint64_t kSeed = 1961;  // of the places of candidates
+constexpr double kSharpEdge = 0.9;          // cosine between the normals of two faces below which their edge is sharp
+constexpr double kPerSpacing = 0.8;         // points that fit into an area of spacing^2
+constexpr double kTriedPerPoint = 4;        // candidates
+constexpr double kCoarsest = 256;           // points of the first level, about
+constexpr std::uint64_t kShellSeed = 1961;  // of the places of candidates
 
 /// A place on the surface that may become a point.
-struct Candidate {
+struct ShellCandidate {
   Vec3f p, normal;
 };
 
 /// Points already chosen, found by place. Cells share a slot of the table now and then; the distance decides.
 class Chosen {
  public:
-  Chosen(double spacing, std::size_t capacity) : per_cell_(1 / spacing), squared_(static_cast<float>(spacing * spacing)) {
+  Chosen(double spacing, std::size_t capacity)
+      : per_cell_(1 / spacing), squared_(static_cast<float>(spacing * spacing)) {
     std::size_t slots = 64;
     while (slots < 2 * capacity) slots *= 2;
     head_.assign(slots, kNone);
     next_.reserve(capacity);
   }
   /// Index of the next point that add() gets. Points that face away from each other do not crowd each other.
-  bool hasRoom(const Candidate& one, const std::vector<Candidate>& points) const {
+  bool hasRoom(const ShellCandidate& one, const std::vector<ShellCandidate>& points) const {
     const Cell cell = cellOf(one.p);
     for (std::int64_t x = -1; x <= 1; ++x) {
       for (std::int64_t y = -1; y <= 1; ++y) {
         for (std::int64_t z = -1; z <= 1; ++z) {
           std::int32_t i = head_[slot({cell[0] + x, cell[1] + y, cell[2] + z})];
           for (; i != kNone; i = next_[static_cast<std::size_t>(i)]) {
-            const Candidate& other = points[static_cast<std::size_t>(i)];
+            const ShellCandidate& other = points[static_cast<std::size_t>(i)];
             if ((other.p - one.p).squaredNorm() < squared_ && other.normal.dot(one.normal) > 0) return false;
           }
         }
@@ -50,7 +51,7 @@ class Chosen {
     }
     return true;
   }
-  void add(const Candidate& one) {
+  void add(const ShellCandidate& one) {
     const std::size_t at = slot(cellOf(one.p));
     next_.push_back(head_[at]);
     head_[at] = static_cast<std::int32_t>(next_.size()) - 1;
@@ -90,15 +91,15 @@ class Surface {
   double area() const { return std::accumulate(area_.begin(), area_.end(), 0.0); }
 
   /// First what is sharp, then faces in random order.
-  std::vector<Candidate> candidates(double spacing) const {
-    std::vector<Candidate> all;
+  std::vector<ShellCandidate> candidates(double spacing) const {
+    std::vector<ShellCandidate> all;
     addSharp(spacing, all);
     const auto first_face = static_cast<std::ptrdiff_t>(all.size());
-    addFaces(kCandidates * kPerSpacing / (spacing * spacing), all);
-    RandomStream random(kSeed, "point shell order");
+    addFaces(kTriedPerPoint * kPerSpacing / (spacing * spacing), all);
+    RandomStream random(kShellSeed, "point shell order");
     for (std::size_t i = all.size(); i > static_cast<std::size_t>(first_face) + 1; --i)
-      std::swap(all[i - 1], all[static_cast<std::size_t>(first_face) +
-                                random.below(i - static_cast<std::size_t>(first_face))]);
+      std::swap(all[i - 1],
+                all[static_cast<std::size_t>(first_face) + random.below(i - static_cast<std::size_t>(first_face))]);
     return all;
   }
 
@@ -107,15 +108,15 @@ class Surface {
     return mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[t][i])];
   }
   // Ends of sharp edges come before their middles. Each end gets the mean normal of the sharp edges there.
-  void addSharp(double spacing, std::vector<Candidate>& all) const {
+  void addSharp(double spacing, std::vector<ShellCandidate>& all) const {
     std::vector<Vec3> at_corner(mesh_.vertices.size(), Vec3::Zero());
-    std::vector<Candidate> middles;
+    std::vector<ShellCandidate> middles;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t other = mesh_.adjacency[t][i];
         if (other < static_cast<std::int32_t>(t)) continue;  // none, or done from the other side
         const Vec3& across = normal_[static_cast<std::size_t>(other)];
-        if (normal_[t].dot(across) > kSharp) continue;
+        if (normal_[t].dot(across) > kSharpEdge) continue;
         const Vec3 sum = normal_[t] + across;
         const Vec3 normal = sum.norm() > 1e-6 ? Vec3(sum.normalized()) : normal_[t];
         const Vec3 &a = corner(t, i), &b = corner(t, (i + 1) % 3);
@@ -132,8 +133,8 @@ class Surface {
     }
     all.insert(all.end(), middles.begin(), middles.end());
   }
-  void addFaces(double per_area, std::vector<Candidate>& all) const {
-    RandomStream random(kSeed, "point shell places");
+  void addFaces(double per_area, std::vector<ShellCandidate>& all) const {
+    RandomStream random(kShellSeed, "point shell places");
     double owed = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       for (owed += per_area * area_[t]; owed >= 1; --owed) {
@@ -176,22 +177,25 @@ class Mirrors {
     }
   }
   /// The candidate and its mirror images, each once.
-  std::vector<Candidate> imagesOf(const Candidate& one) const {
-    std::vector<Candidate> images{one};
+  std::vector<ShellCandidate> imagesOf(const ShellCandidate& one) const {
+    std::vector<ShellCandidate> images{one};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!mirrors_[axis]) continue;
       const auto a = static_cast<Eigen::Index>(axis);
       const std::size_t count = images.size();
       for (std::size_t i = 0; i < count; ++i) {
-        Candidate image = images[i];
+        ShellCandidate image = images[i];
         image.p[a] = static_cast<float>(2 * centre_[a] - static_cast<double>(image.p[a]));
         image.normal[a] = -image.normal[a];
         images.push_back(image);
       }
     }
     for (std::size_t i = 0; i < images.size(); ++i) {
-      const auto same = [&](const Candidate& other) { return (other.p - images[i].p).norm() < 1e-6F * one.p.norm(); };
-      images.erase(std::remove_if(images.begin() + static_cast<std::ptrdiff_t>(i) + 1, images.end(), same), images.end());
+      const auto same = [&](const ShellCandidate& other) {
+        return (other.p - images[i].p).norm() < 1e-6F * one.p.norm();
+      };
+      images.erase(std::remove_if(images.begin() + static_cast<std::ptrdiff_t>(i) + 1, images.end(), same),
+                   images.end());
     }
     return images;
   }
@@ -213,15 +217,16 @@ class Mirrors {
 };
 
 /// Whether all of them have room, and are not in each other's way.
-bool allHaveRoom(const std::vector<Candidate>& images, double spacing, const Chosen& index,
-                 const std::vector<Candidate>& chosen) {
+bool allHaveRoom(const std::vector<ShellCandidate>& images, double spacing, const Chosen& index,
+                 const std::vector<ShellCandidate>& chosen) {
   const auto apart = static_cast<float>(0.25 * spacing * spacing);  // beside a mirror, pairs may be half as far apart
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if ((images[i].p - images[j].p).squaredNorm() < apart && images[i].normal.dot(images[j].normal) > 0) return false;
     }
   }
-  return std::all_of(images.begin(), images.end(), [&](const Candidate& one) { return index.hasRoom(one, chosen); });
+  return std::all_of(images.begin(), images.end(),
+                     [&](const ShellCandidate& one) { return index.hasRoom(one, chosen); });
 }
 
 PointShell::Ball ballAround(std::span<const Vec3f> points) {
@@ -252,31 +257,34 @@ std::uint32_t mortonOf(const Vec3f& p, double radius) {
 PointShell::PointShell(const TriMesh& mesh, double spacing, std::size_t max_points) {
   const Surface surface(mesh);
   const double area = surface.area();
-  spacing = std::max(spacing, std::sqrt(kPerSpacing * area / static_cast<double>(std::max<std::size_t>(max_points, 1))));
+  spacing =
+      std::max(spacing, std::sqrt(kPerSpacing * area / static_cast<double>(std::max<std::size_t>(max_points, 1))));
   radius_ = radiusOf(mesh);
   double coarsest = spacing;
   while (kPerSpacing * area / (coarsest * coarsest) > 4 * kCoarsest) coarsest *= 2;
   const Mirrors mirrors(mesh);
-  std::vector<Candidate> left = surface.candidates(spacing), chosen;
+  std::vector<ShellCandidate> left = surface.candidates(spacing), chosen;
   for (double s = coarsest; s > 0.75 * spacing && chosen.size() < max_points; s /= 2) {
     Chosen index(s, left.size());
-    for (const Candidate& one : chosen) index.add(one);
+    for (const ShellCandidate& one : chosen) index.add(one);
     const std::size_t first = chosen.size();
-    std::vector<Candidate> rest;
-    for (const Candidate& one : left) {
-      const std::vector<Candidate> images = mirrors.imagesOf(one);
+    std::vector<ShellCandidate> rest;
+    for (const ShellCandidate& one : left) {
+      const std::vector<ShellCandidate> images = mirrors.imagesOf(one);
       if (chosen.size() + images.size() > max_points || !allHaveRoom(images, s, index, chosen)) {
         rest.push_back(one);
         continue;
       }
-      for (const Candidate& image : images) {
+      for (const ShellCandidate& image : images) {
         index.add(image);
         chosen.push_back(image);
       }
     }
     left.swap(rest);
     std::sort(chosen.begin() + static_cast<std::ptrdiff_t>(first), chosen.end(),
-              [&](const Candidate& a, const Candidate& b) { return mortonOf(a.p, radius_) < mortonOf(b.p, radius_); });
+              [&](const ShellCandidate& a, const ShellCandidate& b) {
+                return mortonOf(a.p, radius_) < mortonOf(b.p, radius_);
+              });
     for (std::size_t i = first; i < chosen.size(); ++i) {
       points_.push_back(chosen[i].p);
       normals_.push_back(chosen[i].normal);

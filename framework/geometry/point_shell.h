@@ -18,21 +18,24 @@ class PointShell {
   static constexpr std::size_t kBlock = 64,  ///< max points of a block
       kGroup = 16;                           ///< max blocks of a group
 
-  using Vec3f = Eigen::Vector3f;
+  using Vec3f = Eigen::Vector3f;  ///< a place or direction in single precision
+  /// A bounding sphere.
   struct Ball {
     Vec3f center = Vec3f::Zero();  ///< [m]
     float radius = 0;              ///< encloses all points [m]
   };
   /// Consecutive points, or consecutive blocks.
   struct Range {
-    Ball ball;                         ///< around them
-    std::uint32_t first = 0, end = 0;  ///< indices; `end` is one beyond the last
+    Ball ball;                ///< around them
+    std::uint32_t first = 0;  ///< index
+    std::uint32_t end = 0;    ///< index, one beyond the last
   };
   /// A coverage of the surface together with the levels before it.
   struct Level {
-    std::uint32_t first_group = 0, end_group = 0;  ///< indices into groups()
-    std::uint32_t points = 0;                      ///< of this level and those before it
-    double spacing = 0;                            ///< min distance of points that face the same way [m]
+    std::uint32_t first_group = 0;  ///< index into groups()
+    std::uint32_t end_group = 0;    ///< index into groups(), one beyond the last
+    std::uint32_t points = 0;       ///< of this level and those before it
+    double spacing = 0;             ///< min distance of points that face the same way; half of it beside a mirror [m]
   };
 
   PointShell() = default;  ///< no points
@@ -40,7 +43,7 @@ class PointShell {
   /// adjacency. Deterministic. Thread: before a run.
   PointShell(const TriMesh& mesh, double spacing, std::size_t max_points);
 
-  std::size_t size() const noexcept { return points_.size(); }
+  std::size_t size() const noexcept { return points_.size(); }             ///< points of all levels
   const std::vector<Vec3f>& points() const noexcept { return points_; }    ///< [m]
   const std::vector<Vec3f>& normals() const noexcept { return normals_; }  ///< unit, outward
   const std::vector<Range>& blocks() const noexcept { return blocks_; }    ///< ranges of points

@@ -15,14 +15,14 @@ namespace presa {
 
 /// Force of one body on a tool, at one point.
 struct ToolForce {
-  std::int32_t body = kNoBody;   ///< index into Scene::bodies
-  Vec3 p_W = Vec3::Zero();       ///< where it acts [m]
-  Vec3 nhat_W = Vec3::UnitZ();   ///< unit, body into tool
-  Vec3 f_W = Vec3::Zero();       ///< on the tool, friction included [N]
-  double stiffness = 0;          ///< of handle, tool and contact in series, as the body feels it [N/m], > 0
-  double friction_static = 0;    ///< bound of tangential over normal force while sticking
-  double friction_dynamic = 0;   ///< the same while slipping
-  bool slips = false;            ///< friction does not hold it
+  std::int32_t body = kNoBody;  ///< index into Scene::bodies
+  Vec3 p_W = Vec3::Zero();      ///< where it acts [m]
+  Vec3 nhat_W = Vec3::UnitZ();  ///< unit, body into tool
+  Vec3 f_W = Vec3::Zero();      ///< on the tool, friction included [N]
+  double stiffness = 0;         ///< of handle, tool and contact in series, as the body feels it [N/m], > 0
+  double friction_static = 0;   ///< bound of tangential over normal force while sticking
+  double friction_dynamic = 0;  ///< the same while slipping
+  bool slips = false;           ///< friction does not hold it
 };
 
 /// One tool in one haptic tick, in the world frame.

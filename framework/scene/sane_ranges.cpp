@@ -51,6 +51,10 @@ constexpr std::array kSaneRanges{
     SaneRange{"body", "velocity", 0, 100, "m/s", "fifty times a fast hand", SaneRange::Of::kLength},
     SaneRange{"body", "angular_velocity", 0, 1e3, "rad/s", "a fast motor", SaneRange::Of::kLength},
     SaneRange{"device", "fingertip_radius", 0, 0.1, "m", "a fist"},
+    SaneRange{"tool", "stiffness", 1, 1e5, "N/m", "softer is not felt, no device holds a stiffer one"},
+    SaneRange{"tool", "turn_stiffness", 1e-3, 1e3, "N m/rad", "softer is not felt, no device holds a stiffer one"},
+    SaneRange{"tool", "damping", 0, 1e3, "N s/m", "a damper of 2 m / T shakes a hand of m = 0.5 kg at 1 kHz"},
+    SaneRange{"tool", "turn_damping", 0, 10, "N m s/rad", "ten times a wrist's"},
 };
 
 std::string shown(double value) {

@@ -157,18 +157,18 @@ struct DeviceRole {
   SourceLocation where;             ///< its element in the scene
 };
 
-inline constexpr const char* kDefaultRenderer = "god_object";  ///< of a scene that names none, as in its schema
+inline constexpr const char* kDefaultRenderer = "god_object";      ///< of a scene that names none, as in its schema
 inline constexpr const char* kDefaultToolRenderer = "pointshell";  ///< of a scene with tools that names none
-inline constexpr const char* kDefaultEngine = "ode";           ///< of a scene that names none, as in its schema
+inline constexpr const char* kDefaultEngine = "ode";               ///< of a scene that names none, as in its schema
 
 /// Haptic rendering method. The defaults are Presa's methods; the other values select the conventional ones for
 /// comparison.
 struct HapticSettings {
   /// Poses of bodies within a dynamics step: interpolated to the tick, or held at the end of the step.
   enum class PoseUse { kInterpolate, kHold };
-  std::string renderer = kDefaultRenderer;  ///< plug-in (framework/haptics/renderer.h)
-  bool proxy = true;                        ///< its manifest gives a proxy that friction can hold
-  PoseUse pose = PoseUse::kInterpolate;     ///< of bodies in the haptic tick
+  std::string renderer = kDefaultRenderer;           ///< plug-in (framework/haptics/renderer.h)
+  bool proxy = true;                                 ///< its manifest gives a proxy that friction can hold
+  PoseUse pose = PoseUse::kInterpolate;              ///< of bodies in the haptic tick
   std::string tool_renderer = kDefaultToolRenderer;  ///< plug-in of tools (framework/haptics/tool_renderer.h)
 };
 

@@ -245,9 +245,9 @@ class SceneCheck {
     for (const Element& settings : haptics.children()) {
       const auto belongs_to = [&](const std::string& renderer) {
         const Manifest* manifest = findManifest(renderer);
-        return manifest != nullptr &&
-               std::ranges::any_of(manifest->elements,
-                                   [&](const Manifest::Element& own) { return own.name == settings.name(); });
+        return manifest != nullptr && std::ranges::any_of(manifest->elements, [&](const Manifest::Element& own) {
+                 return own.name == settings.name();
+               });
       };
       if (belongs_to(name) || belongs_to(of_tools)) continue;
       diagnostics_.error(kOtherRenderer, settings.where(),

@@ -193,7 +193,8 @@ World buildWorld(Scene scene, Rig rig, Diagnostics& diagnostics) {
   std::vector<int> tool_requests;
   for (const DeviceRole& role : world.scene.devices) {
     tool_requests.push_back(
-        role.tool ? library.request(role.tool->geometry.shape, role.tool->geometry.where, {.must_be_closed = true}) : -1);
+        role.tool ? library.request(role.tool->geometry.shape, role.tool->geometry.where, {.must_be_closed = true})
+                  : -1);
   }
   library.importAll(diagnostics);
   Decomposer decomposer;

@@ -36,10 +36,10 @@ struct BodyInertia {
 
 /// The scene with its meshes loaded and its masses computed. Constant during a run, shared by all modules and threads.
 struct World {
-  Scene scene;                        ///< as loaded
-  Rig rig;                            ///< as loaded
-  std::vector<BodyMeshes> meshes;     ///< as Scene::bodies
-  std::vector<BodyInertia> inertias;  ///< as Scene::bodies
+  Scene scene;                                          ///< as loaded
+  Rig rig;                                              ///< as loaded
+  std::vector<BodyMeshes> meshes;                       ///< as Scene::bodies
+  std::vector<BodyInertia> inertias;                    ///< as Scene::bodies
   std::vector<std::shared_ptr<const TriMesh>> tools{};  ///< as Scene::devices, in the handle's frame T; null: no tool
 };
 

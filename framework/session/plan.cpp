@@ -34,8 +34,7 @@ void planRenderer(const Scene& scene, Plan& plan) {
   const std::string &renderer = scene.haptics.renderer, &of_tools = scene.haptics.tool_renderer;
   if (scene.hasFingertips())
     plan.effects.push_back({renderer, "fingers meet bodies: <haptics renderer=\"" + renderer + "\">"});
-  if (scene.hasTools())
-    plan.effects.push_back({of_tools, "tools meet bodies: <haptics tools=\"" + of_tools + "\">"});
+  if (scene.hasTools()) plan.effects.push_back({of_tools, "tools meet bodies: <haptics tools=\"" + of_tools + "\">"});
 }
 
 /// The friction laws of the bodies that fingers can touch.
@@ -78,7 +77,8 @@ std::string whyNot(const Manifest& manifest, const Scene& scene) {
   if (manifest.kind == PluginKind::kBodyEffect) return has_it ? "no free body has it" : withoutItsElements(manifest);
   if (scene.devices.empty()) return "the scene has no device";
   if (manifest.kind == PluginKind::kToolRenderer)
-    return scene.hasTools() ? "the scene's tool renderer is '" + scene.haptics.tool_renderer + "'" : "no device holds a tool";
+    return scene.hasTools() ? "the scene's tool renderer is '" + scene.haptics.tool_renderer + "'"
+                            : "no device holds a tool";
   if (!scene.hasFingertips()) return "every device holds a tool";
   if (manifest.kind == PluginKind::kRenderer) return "the scene's renderer is '" + scene.haptics.renderer + "'";
   if (manifest.needs_proxy && !scene.haptics.proxy) return "the renderer '" + scene.haptics.renderer + "' has no proxy";

@@ -23,10 +23,12 @@ enum class ShownPart : std::size_t {
   kJoints,      ///< joints between bodies with their positions; key j
   kDevices,     ///< devices whose driver has a figure (framework/device/device_figure.h); key d
   kCompliance,  ///< deflection of their structure under the present force; key b
-  kHeat         ///< heat of their motors; key w
+  kHeat,        ///< heat of their motors; key w
+  kPoints,      ///< places at which bodies hold tools with volume, each with its force; key k
+  kCoupling     ///< where the handles of such tools are; key l
 };
-inline constexpr std::array<std::string_view, 17> kShownPartNames{
-    "visual", "haptic", "physics", "patches", "hips",   "proxies", "cones",      "forces", "sleeping",
-    "frames", "plots",  "texture", "offset",  "joints", "devices", "compliance", "heat"};
+inline constexpr std::array<std::string_view, 19> kShownPartNames{
+    "visual", "haptic",  "physics", "patches", "hips",    "proxies",    "cones", "forces", "sleeping", "frames",
+    "plots",  "texture", "offset",  "joints",  "devices", "compliance", "heat",  "points", "coupling"};
 
 }  // namespace presa

@@ -63,10 +63,10 @@ class HapticsProxy final : public Module, public PluginHost {
   std::shared_ptr<const World> world_;
   HapticEffects effects_;
   Touchables touchables_;
-  std::vector<RenderedFinger> fingers_;    ///< as Scene::devices; empty if all of them are tools
-  std::vector<std::size_t> fingertips_;    ///< the indices of those that are no tools
-  std::vector<PlaceBodies> place_bodies_;  ///< none or one
-  std::unique_ptr<Renderer> renderer_;     ///< null: no fingertips
+  std::vector<RenderedFinger> fingers_;        ///< as Scene::devices; empty if all of them are tools
+  std::vector<std::size_t> fingertips_;        ///< the indices of those that are no tools
+  std::vector<PlaceBodies> place_bodies_;      ///< none or one
+  std::unique_ptr<Renderer> renderer_;         ///< null: no fingertips
   BoundedList<RenderedContact> own_contacts_;  ///< of the renderer, in this finger's tick
   std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;

@@ -55,9 +55,9 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
 // Sums the forces of one tool, and lists them.
 void HeldTools::write(const FingerInput& input, const Touchables& touchables, ContactExchange& all,
                       FingerContact& out) noexcept {
-  const auto strongest = std::max_element(
-      forces_.begin(), forces_.end(),
-      [](const ToolForce& a, const ToolForce& b) { return a.f_W.squaredNorm() < b.f_W.squaredNorm(); });
+  const auto strongest = std::max_element(forces_.begin(), forces_.end(), [](const ToolForce& a, const ToolForce& b) {
+    return a.f_W.squaredNorm() < b.f_W.squaredNorm();
+  });
   out.first_contact = static_cast<std::uint32_t>(all.contacts.size());
   out.body = strongest->body;
   out.mode = ContactMode::kSlip;

@@ -20,15 +20,14 @@ class HeldTools {
   /// `materials` must outlive it. Adds the port of the tools' states to `owner`.
   HeldTools(Module& owner, const World& world, const std::vector<Material>& materials);
   void step(const DeviceState& devices, double period, const Touchables& touchables, ContactExchange& out) noexcept;
-  std::size_t maxForces() const noexcept { return forces_.capacity(); }  ///< of one tool
+  std::size_t maxForces() const noexcept { return forces_.capacity(); }             ///< of one tool
   bool broken() const noexcept { return broken_.load(std::memory_order_acquire); }  ///< thread: any
   std::string what() const { return renderer_->what(); }
 
  private:
   void touch(std::size_t tool, const FingerInput& input, double period, const Touchables& touchables,
              ContactExchange& out) noexcept;
-  void write(const FingerInput& input, const Touchables& touchables, ContactExchange& all,
-             FingerContact& out) noexcept;
+  void write(const FingerInput& input, const Touchables& touchables, ContactExchange& all, FingerContact& out) noexcept;
 
   std::vector<std::size_t> roles_;  // of the tools
   const std::vector<Material>& materials_;

@@ -16,16 +16,16 @@
 namespace presa {
 namespace {
 
-constexpr int kIterations = 10;         // of Newton's method in a tick
-constexpr double kBalanced = 1e-6;      // residual relative to the coupling's limits
-constexpr double kNearly = 1e-4;        // the same, where another iteration no longer helps
-constexpr double kStepVoxels = 0.5;     // max motion of a point in an iteration: no wall is thinner
-constexpr double kExactStep = 0.0002;   // the same where all bodies are primitives [m]
-constexpr double kMarginVoxels = 4;     // points this near are looked at, at the most
-constexpr double kAheadVoxels = 2;      // looked beyond that, so that the next ticks need not look again
-constexpr double kDamped = 0.5;         // of the last step, where the next one goes back
-constexpr double kOnItsWay = 2;         // motion in a tick, over that of an iteration, that leads somewhere
-constexpr double kNormalsHold = 0.2;    // of the max motion in an iteration: the normals of a smaller one stay
+constexpr int kIterations = 10;        // of Newton's method in a tick
+constexpr double kBalanced = 1e-6;     // residual relative to the coupling's limits
+constexpr double kNearly = 1e-4;       // the same, where another iteration no longer helps
+constexpr double kStepVoxels = 0.5;    // max motion of a point in an iteration: no wall is thinner
+constexpr double kExactStep = 0.0002;  // the same where all bodies are primitives [m]
+constexpr double kMarginVoxels = 4;    // points this near are looked at, at the most
+constexpr double kAheadVoxels = 2;     // looked beyond that, so that the next ticks need not look again
+constexpr double kDamped = 0.5;        // of the last step, where the next one goes back
+constexpr double kOnItsWay = 2;        // motion in a tick, over that of an iteration, that leads somewhere
+constexpr double kNormalsHold = 0.2;   // of the max motion in an iteration: the normals of a smaller one stay
 constexpr std::size_t kMiB = std::size_t{1} << 20U;
 
 /// One tool of the scene.
@@ -63,8 +63,8 @@ class PointShellRenderer final : public ToolRenderer {
   const Scene& scene_;
   ShellLaw law_;
   std::vector<Solid> solids_;
-  double step_ = kExactStep;  // max motion of a point in an iteration [m]
-  std::vector<Pose> X_WB_;    // by solid
+  double step_ = kExactStep;                    // max motion of a point in an iteration [m]
+  std::vector<Pose> X_WB_;                      // by solid
   std::vector<FrictionCoefficients> friction_;  // by solid
   std::vector<std::unique_ptr<Held>> tools_;    // by device role; null: a fingertip
 };
@@ -111,7 +111,9 @@ void PointShellRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& f
   state.points = 0;
   state.depth = 0;
   held.frame = kNoBody;
+  if (!state.alive) held.contact->letGo();
   if (held.contact->clearance(X_WT) > way) {
+    held.contact->letGo();
     X_WT = input.X_WH;
   } else {
     if (!held.contact->gather(X_WT, margin, kAheadVoxels / kStepVoxels * step_)) ++state.coarse;
@@ -121,8 +123,10 @@ void PointShellRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& f
     for (const TouchingPoint& one : held.contact->touching()) state.depth = std::max(state.depth, one.depth);
     state.points = static_cast<std::uint32_t>(held.contact->touching().size());
     const ToolCoupling& coupling = held.coupling;
-    ShellForces::add(held.contact->touching(), X_WT, solids_, friction_,
-                     coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness), -at.wrench_T, forces);
+    if (!ShellForces::add(held.contact->touching(), X_WT, solids_, friction_,
+                          coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness), -at.wrench_T,
+                          forces))
+      ++state.coarse;
     held.contact->keepHolds();
     if (!forces.empty()) held.frame = forces[0].body;
   }
@@ -155,7 +159,7 @@ double PointShellRenderer::longestStep(const Held& held, const Balance& at) cons
 bool PointShellRenderer::settle(const ToolInput& input, Held& held, Balance& at) const noexcept {
   const Pose start = at.X_WT;
   double left = kMarginVoxels / kStepVoxels * step_;  // way within which all points are known
-  Pose best = start, touched = start;  // the latter: the last one in contact
+  Pose best = start, touched = start;                 // the latter: the last one in contact
   double before = std::numeric_limits<double>::infinity(), least = before;
   Vec6 last = Vec6::Zero();
   double last_way = 0;

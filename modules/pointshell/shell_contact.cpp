@@ -137,7 +137,14 @@ void ShellContact::findTouching(const Pose& X_WT) noexcept {
     const Vec3 nhat_T = -shell_.normals()[near.point].cast<double>(), p_T = near.p_T.cast<double>();
     Vec3 center_T = Vec3::Zero();
     const double depth = -solid->voxelAt(near.p_T, center_T) + (center_T - p_T).dot(nhat_T);
-    if (depth > 0) touching_.add({.point = near.point, .solid = seen, .p_T = p_T, .nhat_T = nhat_T, .slope_T = nhat_T, .depth = depth, .is_new = near.is_new});
+    if (depth > 0)
+      touching_.add({.point = near.point,
+                     .solid = seen,
+                     .p_T = p_T,
+                     .nhat_T = nhat_T,
+                     .slope_T = nhat_T,
+                     .depth = depth,
+                     .is_new = near.is_new});
   }
 }
 
@@ -226,13 +233,23 @@ void ShellContact::keepHolds() noexcept {
   }
   for (std::size_t s = 0; s < solids_.size(); ++s) {
     slides_[s] = static_cast<char>((slides_[s] & (kSlips | kSticks)) == kSlips);
-    stretch_B_[s] = sums_[s][3] > 0 ? Vec3(X_TB_[s].q.conjugate() * sums_[s].head<3>() / sums_[s][3]) : Vec3(Vec3::Zero());
+    stretch_B_[s] =
+        sums_[s][3] > 0 ? Vec3(X_TB_[s].q.conjugate() * sums_[s].head<3>() / sums_[s][3]) : Vec3(Vec3::Zero());
   }
   for (const std::uint32_t i : held_) {
     if (holds_[i].solid < 0) holds_[i].solid = -1;  // touches no more
   }
   held_ = next_held_;
   for (NearPoint& near : near_) near.is_new = false;
+}
+
+void ShellContact::letGo() noexcept {
+  for (const std::uint32_t i : held_) holds_[i].solid = -1;
+  held_.clear();
+  for (std::size_t s = 0; s < solids_.size(); ++s) {
+    slides_[s] = 0;
+    stretch_B_[s].setZero();
+  }
 }
 
 }  // namespace presa

@@ -64,6 +64,8 @@ class ShellContact {
   const BoundedList<TouchingPoint>& touching() const noexcept { return touching_; }  ///< at the last evaluation
   /// Ends the tick at the last evaluation: friction holds the points where they are.
   void keepHolds() noexcept;
+  /// The tool touches nothing: friction holds no point.
+  void letGo() noexcept;
 
  private:
   static constexpr std::size_t kMaxNear = 1024;
@@ -97,8 +99,8 @@ class ShellContact {
   const std::vector<Pose>& X_WB_;
   const std::vector<FrictionCoefficients>& friction_;
   const ShellLaw law_;
-  Pose X_WT_;               // of the last evaluation
-  std::vector<Pose> X_TB_;  // the same, by solid
+  Pose X_WT_;                        // of the last evaluation
+  std::vector<Pose> X_TB_;           // the same, by solid
   std::vector<Pose> X_BT_gathered_;  // at the last gathering, by solid
   double reach_ = -1;                // margin of the last gathering [m]
   bool whole_ = true;                // it has all levels

@@ -12,10 +12,11 @@ class ShellForces {
  public:
   /// On one tool: an octant of its contact with a body, of up to kMaxBodies bodies, has a force of its own, so that the
   /// body feels a torque against tilting.
-  static constexpr std::size_t kMaxBodies = 4, kMax = 8 * kMaxBodies;
+  static constexpr std::size_t kMaxBodies = 8, kMax = 8 * kMaxBodies;
 
+  /// False: the tool touches more bodies; the others bear their share.
   /// `stiffness`: of handle, tool and contact in series [N/m]. `wrench_T`: of all contacts on the tool, about its origin.
-  static void add(const BoundedList<TouchingPoint>& touching, const Pose& X_WT, const std::vector<Solid>& solids,
+  static bool add(const BoundedList<TouchingPoint>& touching, const Pose& X_WT, const std::vector<Solid>& solids,
                   const std::vector<FrictionCoefficients>& friction, double stiffness, const Vec6& wrench_T,
                   BoundedList<ToolForce>& forces) noexcept;
 };

@@ -20,7 +20,8 @@ void refuseOpen(const Body& body, const TriMesh& mesh) {
   const MeshReport report = checkMesh(mesh);
   if (report.closed() && report.flipped_edges == 0) return;
   throw std::invalid_argument("the haptic mesh of body '" + body.name + "' is open or folded (" +
-                              std::to_string(report.open_edges) + " open edges): a distance field needs an inside; "
+                              std::to_string(report.open_edges) +
+                              " open edges): a distance field needs an inside; "
                               "close the mesh, or give a primitive");
 }
 
@@ -28,7 +29,8 @@ SharedField fieldOf(const Body& body, const TriMesh& mesh, const FieldSettings& 
   refuseOpen(body, mesh);
   const AxisBox bounds = boundsOf(mesh);
   const double voxel = settings.voxel > 0 ? settings.voxel : (bounds.high - bounds.low).maxCoeff() / kVoxelsAlong;
-  const DistanceField::Settings wanted{.voxel = voxel, .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes)};
+  const DistanceField::Settings wanted{.voxel = voxel,
+                                       .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes)};
   DistanceField::Size size;
   if (std::optional<DistanceField> field = cachedField(mesh, wanted, size))
     return std::make_shared<const DistanceField>(*std::move(field));

@@ -19,6 +19,7 @@ namespace {
 void placeContact(const FingerContact& contact, const std::vector<Pose>& X_WB, FingerView& finger) {
   finger.p_WH = contact.p_WH;
   finger.p_WP = contact.p_WP;
+  finger.t_H_W = contact.t_H_W;
   finger.f_H_W = contact.f_H_W;  // effects of the scene push without contact, too
   const auto body = static_cast<std::size_t>(contact.body);
   if (contact.mode == ContactMode::kNone || contact.body == kNoBody || body >= X_WB.size()) return;

@@ -27,6 +27,7 @@ struct FingerView {
   Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]
   Vec3 nhat_W = Vec3::UnitZ();  ///< unit normal, body into finger
   Vec3 f_H_W = Vec3::Zero();    ///< rendered force on the finger [N]
+  Vec3 t_H_W = Vec3::Zero();    ///< rendered torque on the tool about the HIP [N m]
   double normal_force = 0;      ///< rendered [N]
   double commanded_normal = 0;  ///< normal part of the force that goes to the device, after the output stage [N]
   double tangential_force = 0;  ///< [N], >= 0

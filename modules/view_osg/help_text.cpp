@@ -63,7 +63,8 @@ HelpLines partLines() {
           {"9  0", "sleeping bodies, coordinate frames"},
           {"g  t", "plots of the last seconds, felt texture"},
           {"o  j", "offsets of the fingers, joints"},
-          {"d  b  w", "devices, their deflection, their heat"}};
+          {"d  b  w", "devices, their deflection, their heat"},
+          {"k  l", "contacts of a tool, its handle"}};
 }
 
 }  // namespace

@@ -296,7 +296,9 @@ void Hud::updateCard(Card& card, const FingerView& finger) {
   recolor(*card.lamp, color);
   card.forces.set(printed("normal %5.2f N  tang. %5.2f N", finger.normal_force, finger.tangential_force));
   card.bar.set(finger.frictionUse(), color);
-  if (finger.touches())
+  if (finger.has_volume)  // no common normal, but a torque
+    card.use.set(printed("torque %5.3f N m", finger.t_H_W.norm()));
+  else if (finger.touches())
     card.use.set(printed("%3.0f %% of \xc2\xb5N, \xc2\xb5 %.2f", 100 * finger.frictionUse(), finger.friction));
   else
     card.use.set("friction used");

@@ -40,6 +40,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       card_(hud_.right(), *world_),
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_),
+      tool_marks_(*world_, *space_),
       joints_(world_->scene, bodies_, *space_, hud_.center(), inkOn(options.picture.background)),
       frame_axes_(*world_, *space_, hud_.center(), inkOn(options.picture.background)),
       ink_(inkOn(options.picture.background)),
@@ -239,6 +240,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   plots_.update(parts[ShownPart::kPlots]);
   showOffsets(parts[ShownPart::kOffset], frame);
   joints_.show(parts[ShownPart::kJoints], frame);
+  tool_marks_.show(parts, frame, fingers);
   frame_axes_.show(parts[ShownPart::kFrames], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);

@@ -25,6 +25,7 @@
 #include "modules/view_osg/shown_devices.h"
 #include "modules/view_osg/shown_joints.h"
 #include "modules/view_osg/time_bar.h"
+#include "modules/view_osg/tool_marks.h"
 #include "modules/view_osg/visit_screen.h"
 
 namespace presa::view {
@@ -114,6 +115,7 @@ class Picture {
   TimeBar time_bar_;
   Plots plots_;
   std::optional<OffsetPanel> offsets_;  // once it is shown
+  ToolMarks tool_marks_;
   ShownJoints joints_;
   FrameAxes frame_axes_;
   const Ink ink_;

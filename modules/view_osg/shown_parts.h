@@ -20,8 +20,8 @@ class ShownParts {
   void toggle(ShownPart part) { shown_[static_cast<std::size_t>(part)] = !(*this)[part]; }
 
  private:
-  std::array<bool, kShownPartNames.size()> shown_{true,  false, false, false, true,  true, true,  true, false,
-                                                  false, false, false, false, false, true, false, false};
+  std::array<bool, kShownPartNames.size()> shown_{true,  false, false, false, true, true,  true,  true,  false, false,
+                                                  false, false, false, false, true, false, false, false, false};
 };
 
 }  // namespace presa::view

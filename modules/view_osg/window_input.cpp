@@ -182,6 +182,11 @@ bool WindowInput::key(const Event& event) {
                               : key == 'b' ? ShownPart::kCompliance
                                            : ShownPart::kHeat);
       return true;
+    case 'k':
+    case 'l':
+      if (controls_.visitor) return true;
+      picture_.parts().toggle(key == 'k' ? ShownPart::kPoints : ShownPart::kCoupling);
+      return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
       return true;

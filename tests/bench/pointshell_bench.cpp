@@ -46,9 +46,9 @@ void BM_PointshellBrute(benchmark::State& state) {
     }
     benchmark::DoNotOptimize(force);
   }
-  state.counters["ns_per_point"] = benchmark::Counter(static_cast<double>(shell.size()) * 1e-9,
-                                                      benchmark::Counter::kIsIterationInvariantRate |
-                                                          benchmark::Counter::kInvert);
+  state.counters["ns_per_point"] =
+      benchmark::Counter(static_cast<double>(shell.size()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(BM_PointshellBrute)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
 
@@ -57,7 +57,8 @@ void BM_PointshellLight(benchmark::State& state) {
   const auto points = std::to_string(state.range(0));
   const auto world = test::fingerWorld(
       R"(<scene version="1.1" name="light"><world gravity="0 0 0"/><haptics tools="pointshell"><pointshell max_points=")" +
-      points + R"("/></haptics><materials><material name="any" stiffness="1000"><friction static="0.3" dynamic="0.2"/></material></materials>
+      points +
+      R"("/></haptics><materials><material name="any" stiffness="1000"><friction static="0.3" dynamic="0.2"/></material></materials>
     <body name="amphora" fixed="true" material="any"><haptic><mesh file="config/meshes/amphora.obj"/></haptic></body>
     <devices><device role="finger"><tool><capsule radius="0.02" length="0.06"/></tool></device></devices></scene>)");
   const auto renderer = makeToolRenderer(*world);
@@ -84,14 +85,21 @@ void BM_PointshellLight(benchmark::State& state) {
     us.push_back(1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   std::sort(us.begin(), us.end());
-  const auto at = [&](double share) { return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))]; };
+  const auto at = [&](double share) {
+    return us[static_cast<std::size_t>(share * static_cast<double>(us.size() - 1))];
+  };
   state.counters["p50_us"] = at(0.5);
   state.counters["p99.9_us"] = at(0.999);
   state.counters["points"] = tool.points;
   state.counters["coarse"] = tool.coarse;
   state.counters["late"] = tool.late;
 }
-BENCHMARK(BM_PointshellLight)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Iterations(10'000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(BM_PointshellLight)
+    ->Arg(10'000)
+    ->Arg(100'000)
+    ->Arg(1'000'000)
+    ->Iterations(10'000)
+    ->Unit(benchmark::kMicrosecond);
 
 // A mesh of 300 k triangles at 256 voxels along its longest side.
 void BM_DistanceFieldBuild(benchmark::State& state) {

@@ -155,7 +155,7 @@ CORE = [
     (ROW, "contact.mode == ContactMode::kSlip ? contact.friction_dynamic : contact.friction_static", "contact.friction_static"),
     (ROW, "const double ahead = std::clamp(age, 0.0, old_after);", "const double ahead = 0;"),
     (ROW, "1 - (age - old_after) / kFingerFade", "1 - 0 * (age - old_after) / kFingerFade"),
-    (ROW, "own.p_WH = contact.p_WP - part.stretch_W;", "own.p_WH = contact.p_WH;"),
+    (ROW, "own.p_WH = part.p_WP - part.stretch_W;", "own.p_WH = contact.p_WH;"),
     (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * normal"),
     (FINGERS, "torsional_radius_[body] * row.mu * normal", "torsional_radius_[body] * row.mu"),
     (FINGERS, "row.mu = row.mu_dynamic;\n    wanted", "wanted"),

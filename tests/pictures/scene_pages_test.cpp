@@ -92,6 +92,7 @@ std::vector<std::string> expectedSections(const Scene& scene) {
   if (fingers > 0) all.push_back("Position, grip force and contact state");
   if (fingers > 0 && !touchesNothing(scene)) all.push_back("Friction");
   if (fingers > 0) all.push_back("Contact points");
+  if (scene.hasTools()) all.push_back("Tools");
   if (free) all.push_back("Objects");
   if (!scene.joints.empty()) all.push_back("Joints");
   if (std::filesystem::exists(source("config/scenes/printed/" + scene.name + ".xml")))

@@ -44,8 +44,8 @@ std::string contactTable(const RunResult& result) {
 /// Of tools with volume. Coarse: ticks that examined the tool's surface more coarsely than it is given; late: ticks that
 /// did not bring tool and forces into balance.
 std::string toolTable(const RunResult& result) {
-  std::string out = format("  %-14s %8s %10s %11s %9s %9s\n", "tool", "ticks", "deepest mm", "most points", "coarse",
-                           "late");
+  std::string out =
+      format("  %-14s %8s %10s %11s %9s %9s\n", "tool", "ticks", "deepest mm", "most points", "coarse", "late");
   for (const ToolSummary& tool : result.tools) {
     out += format("  %-14s %8u %10.3f %11u %9u %9u\n", printable(tool.name).c_str(), tool.touched, 1e3 * tool.deepest,
                   tool.most_points, tool.coarse, tool.late);

@@ -20,7 +20,7 @@ template <class T>
 void take(const std::string& bytes, std::size_t& at, std::vector<T>& values, std::size_t count) {
   values.resize(count);
   if (bytes.size() - at < count * sizeof(T)) throw std::runtime_error("a stored run is cut short");
-  std::memcpy(values.data(), bytes.data() + at, count * sizeof(T));
+  if (count > 0) std::memcpy(values.data(), bytes.data() + at, count * sizeof(T));
   at += count * sizeof(T);
 }
 

@@ -18,7 +18,7 @@ namespace presa::cost {
 namespace {
 
 /// What a scene must have for a knob to do something.
-enum class Need { kNothing, kFingers, kMotion, kHeldMotion, kMeshes };
+enum class Need { kNothing, kFingers, kFingertips, kTools, kMotion, kHeldMotion, kMeshes };
 
 struct KnownFactor {
   const char* name;
@@ -38,11 +38,13 @@ constexpr KnownFactor kFactors[] = {
     {"friction", "dynamics/friction", Need::kMotion},
     {"rotation", "dynamics/rotation", Need::kMotion},
     {"sleeping", "dynamics/sleeping", Need::kMotion},
-    {"renderer", "haptics/renderer", Need::kFingers},
+    {"renderer", "haptics/renderer", Need::kFingertips},
+    {"voxel", "haptics/pointshell/voxel", Need::kTools},
+    {"points", "haptics/pointshell/max_points", Need::kTools},
     {"pose", "haptics/pose", Need::kHeldMotion},
     {"collision_index", "collision/index", Need::kMeshes},
     {"patch_margin", "collision/margin", Need::kMeshes},
-    {"fingertip_radius", "device/*/fingertip_radius", Need::kFingers},
+    {"fingertip_radius", "device/*/fingertip_radius", Need::kFingertips},
     {"latency", "run/latency", Need::kFingers},
     {"haptic_jitter", "run/haptic_jitter", Need::kFingers},
     {"collision_jitter", "run/collision_jitter", Need::kMeshes},
@@ -360,6 +362,10 @@ static std::string lackFor(Need need, const Loaded& base) {
   const bool moves = hasMotion(base.plan), touches = !base.world->scene.devices.empty();
   if ((need == Need::kMotion || need == Need::kHeldMotion) && !moves) return "nothing in it moves";
   if ((need == Need::kFingers || need == Need::kHeldMotion) && !touches) return "it has no finger";
+  if (need == Need::kFingertips && !base.world->scene.hasFingertips()) return "it has no fingertip";
+  if (need == Need::kTools && base.world->scene.haptics.tool_renderer != "pointshell")
+    return "its tools have another renderer";
+  if (need == Need::kTools && !base.world->scene.hasTools()) return "it has no tool with volume";
   if (need == Need::kMeshes && !base.plan.has("collision_fcl")) return "no finger of it touches a mesh";
   return {};
 }
@@ -421,7 +427,11 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
     add("collision_rate",
         quick ? std::vector<std::string>{"50", "100"} : std::vector<std::string>{"25", "50", "100", "200", "500"});
   if (quick) return factors;
-  if (touches) add("renderer", renderers());
+  if (scene.hasFingertips()) add("renderer", renderers());
+  if (scene.hasTools()) {
+    add("voxel", {"0.002", "0.001", "0.0005", "0.00025"});
+    add("points", {"500", "2000", "8000", "32000"});
+  }
   if (moves) {
     add("substeps", {"1", "2", "4", "8"});
     add("solver", {"auto", "direct", "iterative", "newton", "small_steps"});

@@ -27,7 +27,8 @@ struct ToolContact {
   double damping = 0;             ///< along the normal [N s/m]
   // friction, as in FingerContact
   ContactMode mode = ContactMode::kNone;  ///< at this body
-  double friction_static = 0, friction_dynamic = 0;  ///< bound of tangential over normal force: sticks, slips
+  double friction_static = 0;             ///< bound of tangential over normal force while sticking
+  double friction_dynamic = 0;            ///< the same while slipping
   double tangential_ratio = 1;            ///< tangential stiffness / stiffness
   double tangential_damping = 0;          ///< share of the finger's [N s/m]
   Vec3 damped_W = Vec3::Zero();           ///< part of stretch_W that tangential damping causes [m]

@@ -64,6 +64,28 @@ TEST(DistanceField, OfSmoothSolidsIsRightToATenthOfAVoxelInTheNarrowBand) {
   }
 }
 
+// Half the voxel, a quarter of the error: interpolation is of second order.
+TEST(DistanceField, ConvergesWithTheSquareOfTheVoxel) {
+  double last = 0;
+  for (const double voxel : {0.002, 0.001, 0.0005}) {
+    const DistanceField field = fieldOf(torus, {.voxel = voxel});
+    RandomStream random(8, "field");
+    double squares = 0;
+    int looked = 0;
+    while (looked < 20000) {
+      const Vec3 p = somewhere(random, 0.03);
+      if (std::abs(torus(p)) > 0.001) continue;
+      squares += std::pow(field.at(p) - torus(p), 2);
+      ++looked;
+    }
+    const double error = std::sqrt(squares / looked);
+    if (last > 0) {
+      EXPECT_NEAR(std::log2(last / error), 2, 0.2) << voxel;
+    }
+    last = error;
+  }
+}
+
 // Inside of a box the distance has ridges, outside it is round at edges; elsewhere it is linear, hence exact.
 TEST(DistanceField, OfABoxIsExactUnderItsFaces) {
   const DistanceField field = fieldOf(box);
@@ -116,7 +138,8 @@ TEST(DistanceField, OfAMeshHasTheMeshsSignAndDistance) {
     }
     inside += field->at(p) < 0;
   }
-  EXPECT_NEAR(inside / 50000.0, 2 * std::numbers::pi * std::numbers::pi * 0.02 * 0.008 * 0.008 / std::pow(0.06, 3), 0.01);
+  EXPECT_NEAR(inside / 50000.0, 2 * std::numbers::pi * std::numbers::pi * 0.02 * 0.008 * 0.008 / std::pow(0.06, 3),
+              0.01);
 }
 
 // At corners and edges the nearest triangles are at a tie, and the face normals of some of them point the wrong way.

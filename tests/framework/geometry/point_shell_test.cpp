@@ -20,8 +20,7 @@ TriMesh withAdjacency(TriMesh mesh) {
 
 double nearestTo(const PointShell& shell, const Vec3& p, std::size_t count) {
   double nearest = 1e9;
-  for (std::size_t i = 0; i < count; ++i)
-    nearest = std::min(nearest, (shell.points()[i].cast<double>() - p).norm());
+  for (std::size_t i = 0; i < count; ++i) nearest = std::min(nearest, (shell.points()[i].cast<double>() - p).norm());
   return nearest;
 }
 

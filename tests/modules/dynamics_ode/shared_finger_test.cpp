@@ -29,6 +29,7 @@ TEST(SharedFinger, EachBodyGetsItsOwnPart) {
       const Vec3 force = body == 0 ? on_left : on_right;
       exchange.contacts.add({.body = body,
                              .p_BP = X_WB.inverseTimes(contact.p_WP),
+                             .p_WP = contact.p_WP,
                              .nhat_B = X_WB.q.conjugate() * force.normalized(),
                              .stretch_W = force / kStiffness,
                              .stiffness = kStiffness,
@@ -66,6 +67,7 @@ TEST(SharedFinger, EachBodyGetsItsOwnFriction) {
         const double mu = body == rough ? kMu : 0;
         exchange.contacts.add({.body = body,
                                .p_BP = X_WB.inverseTimes(contact.p_WP),
+                               .p_WP = contact.p_WP,
                                .nhat_B = X_WB.q.conjugate() * nhat,
                                .v_WH = contact.v_WH,
                                .stretch_W = (kNormalForce * nhat - mu * kNormalForce * Vec3::UnitY()) / kStiffness,

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "framework/core/math/random.h"
+#include "tests/modules/pointshell/mesh_file.h"
 #include "tests/modules/pointshell/one_tool.h"
 
 namespace presa::flat_contact_test {
@@ -104,8 +107,8 @@ TEST(BlockOnPlane, SticksAndSlipsAsCoulombSays) {
 }
 
 TEST(BlockOnPlane, HoldsBackTheHandUpToItsLimitAndNoMore) {
-  OneTool tool(toolWorld(R"(<tool stiffness="1000" max_force="3" max_torque="0.05"><box size="0.04 0.03 0.02"/></tool>)",
-                         slab()));
+  OneTool tool(toolWorld(
+      R"(<tool stiffness="1000" max_force="3" max_torque="0.05"><box size="0.04 0.03 0.02"/></tool>)", slab()));
   tool.tick({{0, 0, 0.02}, Quat::Identity()});
   double last = 0;
   for (int i = 0; i < 60; ++i) {
@@ -115,6 +118,31 @@ TEST(BlockOnPlane, HoldsBackTheHandUpToItsLimitAndNoMore) {
     last = contact.f_H_W.norm();
   }
   EXPECT_GT(last, 2.8);
+}
+
+// A ball between its points is flatter by spacing^2 / (8 r): four times as many points, a quarter of the error. Oracle: the
+// spring of the handle alone, 1 mm long, for the contact is ten thousand times as stiff.
+TEST(BallOnPlane, ConvergesWithTheNumberOfItsPoints) {
+  const test::MeshFile ball(makeSphere(0.02, 7), "ball");  // a facet lies within 0.4 um of the ball
+  std::vector<double> errors;
+  for (const int points : {250, 1000, 4000, 16000}) {
+    OneTool tool(toolWorld("<tool turn_stiffness=\"100\" max_torque=\"10\"><mesh file=\"" + ball.path() + "\"/></tool>",
+                           slab(),
+                           "<pointshell max_points=\"" + std::to_string(points) + "\" stiffness=\"10000000\"/>"));
+    tool.tick({{0, 0, 0.03}, Quat::Identity()});
+    double sum = 0;
+    constexpr int kWays = 40;  // it is turned, so that no point is always lowest
+    for (int i = 0; i < kWays; ++i) {
+      const Quat turn = turned({std::sin(1.0 * i), std::cos(2.0 * i), std::sin(3.0 * i)}, 50.0 * i);
+      tool.rest({{0, 0, 0.03}, turn}, 20);
+      sum += std::abs(1 - tool.rest({{0, 0, 0.019}, turn}, 30).f_H_W.z());
+    }
+    errors.push_back(sum / kWays);
+  }
+  const double order = std::log(errors.front() / errors.back()) / std::log(16000.0 / 250);
+  std::printf("mean error of 1 N with 250 to 16000 points: %.4f %.4f %.4f %.4f N, order %.2f\n", errors[0], errors[1],
+              errors[2], errors[3], order);
+  EXPECT_GT(order, 0.8) << "in the number of points, twice that in their spacing";
 }
 
 TEST(BlockOnPlane, InTheAirFollowsTheHandWithoutForce) {

@@ -77,7 +77,8 @@ class OneTool {
  private:
   template <class T>
   struct Source final : Module {
-    explicit Source(const char* port) : Module(std::string("source_of_") + port, RateGroup::kHaptic), out(*this, port) {}
+    explicit Source(const char* port)
+        : Module(std::string("source_of_") + port, RateGroup::kHaptic), out(*this, port) {}
     void step(const Tick&) noexcept override {}
     Out<T> out;
   };

@@ -56,13 +56,13 @@ test::MeshFile socketFor(double clearance) {
 const char* const kPeg = R"(<tool stiffness="1000" turn_stiffness="2"><cylinder radius="0.01" length="0.06"/></tool>)";
 
 struct Wobbled {
-  double largest = 0;        // force on the hand [N]
-  double torque = 0;         // [N m]
-  double deepest = 0;        // [m]
-  double largest_step = 0;   // of the force from one tick to the next [N]
-  double energy = 0;         // to the hand in whole turns of the wobble [J]
-  double deepest_peg = 1;    // lowest height of the peg's end [m]
-  std::uint32_t late = 0;    // ticks
+  double largest = 0;       // force on the hand [N]
+  double torque = 0;        // [N m]
+  double deepest = 0;       // [m]
+  double largest_step = 0;  // of the force from one tick to the next [N]
+  double energy = 0;        // to the hand in whole turns of the wobble [J]
+  double deepest_peg = 1;   // lowest height of the peg's end [m]
+  std::uint32_t late = 0;   // ticks
 };
 
 Wobbled wobble(double clearance, const std::string& material, double seconds) {
@@ -101,8 +101,9 @@ TEST_P(Peg, IsDrivenInAndWobbledForAMinute) {
   const auto [clearance, material] = GetParam();
   const Wobbled w = wobble(clearance, material, 61);
   RecordProperty("deepest_um", std::to_string(1e6 * w.deepest));
-  std::printf("clearance %.2f mm %s: force %.2f N, step %.3f N, torque %.3f N m, depth %.1f um, energy %.2e J, late %u\n",
-              1e3 * clearance, material, w.largest, w.largest_step, w.torque, 1e6 * w.deepest, w.energy, w.late);
+  std::printf(
+      "clearance %.2f mm %s: force %.2f N, step %.3f N, torque %.3f N m, depth %.1f um, energy %.2e J, late %u\n",
+      1e3 * clearance, material, w.largest, w.largest_step, w.torque, 1e6 * w.deepest, w.energy, w.late);
   EXPECT_LT(w.deepest, kVoxel) << "less than a voxel deep";
   EXPECT_GT(w.deepest_peg, 0.01 - kVoxel) << "does not leave through the bottom";
   EXPECT_LE(w.largest, 8.0 + 1e-9);

@@ -44,7 +44,8 @@ PinchRun makePinchRun(RunOptions::View view, const std::string& screenshot) {
   scene.bodies = {makeBox("table", {0.6, 0.4, 0.04}, {0, 0, -0.02}, true, 0),
                   makeBox("cube", Vec3::Constant(kCubeEdge), {0, 0, kCubeEdge / 2}, false, 1)};
   scene.bodies[1].mass = 0.2;
-  for (const char* role : {"thumb", "index"}) scene.devices.push_back({role, 0.008, {10, 1000, 20}, {}});
+  for (const char* role : {"thumb", "index"})
+    scene.devices.push_back({.role = role, .fingertip_radius = 0.008, .limits = {10, 1000, 20}, .where = {}});
   world->meshes.resize(2);
   world->inertias.resize(2);
   RunOptions options;
