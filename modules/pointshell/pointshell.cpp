@@ -24,6 +24,7 @@ constexpr double kExactStep = 0.0002;  // the same where all bodies are primitiv
 constexpr double kMarginVoxels = 4;    // points this near are looked at, at the most
 constexpr double kAheadVoxels = 2;     // looked beyond that, so that the next ticks need not look again
 constexpr double kDamped = 0.5;        // of the last step, where the next one goes back
+constexpr int kPatience = 3;           // ticks out of balance in a row before a tool leaves its best pose
 constexpr double kOnItsWay = 2;        // motion in a tick, over that of an iteration, that leads somewhere
 constexpr double kNormalsHold = 0.2;   // of the max motion in an iteration: the normals of a smaller one stay
 constexpr std::size_t kMiB = std::size_t{1} << 20U;
@@ -35,6 +36,7 @@ struct Held {
   std::unique_ptr<ShellContact> contact;
   std::int32_t frame = kNoBody;  // body that it touches; its pose is kept in the coordinates of that body
   Pose X_AT;
+  int late = 0;  // ticks in a row without balance
 };
 
 class PointShellRenderer final : public ToolRenderer {
@@ -118,7 +120,9 @@ void PointShellRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& f
   } else {
     if (!held.contact->gather(X_WT, margin, kAheadVoxels / kStepVoxels * step_)) ++state.coarse;
     Balance at{.X_WT = X_WT};
-    if (!settle(input, held, at)) ++state.late;
+    const bool balanced = settle(input, held, at);
+    held.late = balanced ? 0 : held.late + 1;
+    state.late += balanced ? 0 : 1;
     X_WT = at.X_WT;
     for (const TouchingPoint& one : held.contact->touching()) state.depth = std::max(state.depth, one.depth);
     state.points = static_cast<std::uint32_t>(held.contact->touching().size());
@@ -187,11 +191,13 @@ bool PointShellRenderer::settle(const ToolInput& input, Held& held, Balance& at)
     const Mat3 R_WT = at.X_WT.q.toRotationMatrix();
     at.X_WT = movedBy(at.X_WT, (Vec6() << R_WT * step.head<3>(), R_WT * step.tail<3>()).finished());
   }
-  // On its way, over an edge for instance, it goes on; to and fro in one place, it stays at the best one.
+  // To and fro, it stays at the best pose. If it is late for some ticks and gets away from there, over an edge for
+  // instance, it goes on.
   const double gone = (touched.p - start.p).norm() + turnBetween(start.q, touched.q).norm() * held.shell.radius();
-  at.X_WT = gone > kOnItsWay * step_ ? touched : best;
+  const bool balanced = least <= kNearly;
+  at.X_WT = !balanced && held.late >= kPatience && gone > kOnItsWay * step_ ? touched : best;
   unbalanced(input, start, held, at);
-  return least <= kNearly;
+  return balanced;
 }
 
 std::string PointShellRenderer::what() const {
