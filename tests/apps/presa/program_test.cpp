@@ -237,9 +237,9 @@ TEST(Interrupt, FadesForcesAndKeepsTheRecording) {
 
 // The forces fade for 150 ms, and a video is completed: the user reads at once what is waited for.
 TEST(Interrupt, IsAnsweredBeforeTheRunHasEnded) {
-  const std::string video = scratch("interrupted.mp4"),
-                    begin = "timeout --foreground --preserve-status -s TERM 2 " + std::string(PRESA_BINARY_DIR) +
-                            "/bin/presa run " + kCubeScene;
+  const std::string video = scratch("interrupted.mp4"), begin = "timeout --foreground --preserve-status -s TERM 2 " +
+                                                                std::string(PRESA_BINARY_DIR) + "/bin/presa run " +
+                                                                kCubeScene;
   const auto live = test::shell(begin + " --realtime --view none");
   EXPECT_EQ(live.status, 130) << live.err;
   EXPECT_NE(live.err.find("\nstopping: forces fade to zero\n"), std::string::npos) << live.err;

@@ -128,9 +128,9 @@ TEST(Printed, TheCommandWritesAPageAndTheGrid) {
 // Each of its seventy runs stops at a signal by itself: the next one must not begin.
 TEST(Printed, EndsAtASignal) {
   const std::string out = scratch("interrupted");
-  const auto outcome = test::shell("timeout --foreground --preserve-status -k 20 -s TERM 1 " +
-                                   std::string(PRESA_BINARY_DIR) + "/bin/presa-printed " +
-                                   source("config/scenes/percro_2006.xml") + " --out " + out);
+  const auto outcome =
+      test::shell("timeout --foreground --preserve-status -k 20 -s TERM 1 " + std::string(PRESA_BINARY_DIR) +
+                  "/bin/presa-printed " + source("config/scenes/percro_2006.xml") + " --out " + out);
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_NE(outcome.err.find("stopped; nothing was written"), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(out));
