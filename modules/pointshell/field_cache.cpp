@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "framework/core/math/fnv.h"
 #include "framework/geometry/mesh_distance.h"
@@ -20,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kLong{200};  // what takes longer is kept for the next load
+constexpr std::uintmax_t kMost = 256U << 20U;    // of all fields in the cache [bytes]
 
 /// "" when the user has no cache folder.
 std::string fileOf(const TriMesh& mesh, const DistanceField::Settings& settings) {
@@ -56,6 +60,24 @@ std::optional<DistanceField> readField(const std::string& file, std::size_t max_
   return sumOf(*bytes) == sum ? DistanceField::fromBytes(*bytes) : std::nullopt;
 }
 
+/// The oldest fields make room.
+void prune(const fs::path& folder) {
+  std::error_code failure;
+  std::vector<std::pair<fs::file_time_type, fs::path>> fields;
+  std::uintmax_t total = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    if (entry.path().extension() != ".field") continue;
+    total += entry.file_size(failure);
+    fields.emplace_back(entry.last_write_time(failure), entry.path());
+  }
+  std::sort(fields.begin(), fields.end());
+  for (const auto& [time, file] : fields) {
+    if (total <= kMost) break;
+    const std::uintmax_t size = fs::file_size(file, failure);
+    if (fs::remove(file, failure)) total -= std::min(total, size);
+  }
+}
+
 void keepField(const std::string& file, const DistanceField& field) {
   if (file.empty()) return;
   std::error_code failure;
@@ -68,6 +90,7 @@ void keepField(const std::string& file, const DistanceField& field) {
   out.close();
   if (out) fs::rename(part, file, failure);
   if (!out || failure) fs::remove(part, failure);
+  prune(fs::path(file).parent_path());
 }
 
 }  // namespace
