@@ -1,5 +1,4 @@
 #include <atomic>
-#include <mutex>
 #include <thread>
 
 #include "framework/geometry/distance_field.h"

@@ -35,7 +35,7 @@ class Chosen {
     head_.assign(slots, kNone);
     next_.reserve(capacity);
   }
-  /// Index of the next point that add() gets. Points that face away from each other do not crowd each other.
+  /// Whether no chosen point is nearer than the spacing. Points that face away from each other do not crowd each other.
   bool hasRoom(const ShellCandidate& one, const std::vector<ShellCandidate>& points) const {
     const Cell cell = cellOf(one.p);
     for (std::int64_t x = -1; x <= 1; ++x) {

@@ -118,7 +118,7 @@ void PointShellRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& f
     held.contact->letGo();
     X_WT = input.X_WH;
   } else {
-    if (!held.contact->gather(X_WT, margin, kAheadVoxels / kStepVoxels * step_)) ++state.coarse;
+    const bool whole = held.contact->gather(X_WT, margin, kAheadVoxels / kStepVoxels * step_);
     Balance at{.X_WT = X_WT};
     const bool balanced = settle(input, held, at);
     held.late = balanced ? 0 : held.late + 1;
@@ -127,10 +127,10 @@ void PointShellRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& f
     for (const TouchingPoint& one : held.contact->touching()) state.depth = std::max(state.depth, one.depth);
     state.points = static_cast<std::uint32_t>(held.contact->touching().size());
     const ToolCoupling& coupling = held.coupling;
-    if (!ShellForces::add(held.contact->touching(), X_WT, solids_, friction_,
-                          coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness), -at.wrench_T,
-                          forces))
-      ++state.coarse;
+    const bool complete = ShellForces::add(held.contact->touching(), X_WT, solids_, friction_,
+                                           coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness),
+                                           -at.wrench_T, forces);
+    state.coarse += whole && complete ? 0 : 1;  // once a tick
     held.contact->keepHolds();
     if (!forces.empty()) held.frame = forces[0].body;
   }

@@ -152,7 +152,6 @@ void ShellContact::findTouching(const Pose& X_WT) noexcept {
 // many. With d = depth, S the sum of the depths and w = d / S, the force of a point is k w (d n + t), where t is its
 // stretch, or mu d along it where it slips. Its derivative has the point's own motion, and dS, which is the same for all.
 Vec6 ShellContact::evaluate(const Pose& X_WT, Mat6& stiffness) noexcept {
-  X_WT_ = X_WT;
   for (std::size_t s = 0; s < solids_.size(); ++s) X_TB_[s] = X_WT.inverse() * X_WB_[s];
   findTouching(X_WT);
   double depths = 0;

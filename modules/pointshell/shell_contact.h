@@ -99,8 +99,7 @@ class ShellContact {
   const std::vector<Pose>& X_WB_;
   const std::vector<FrictionCoefficients>& friction_;
   const ShellLaw law_;
-  Pose X_WT_;                        // of the last evaluation
-  std::vector<Pose> X_TB_;           // the same, by solid
+  std::vector<Pose> X_TB_;           // at the last evaluation, by solid
   std::vector<Pose> X_BT_gathered_;  // at the last gathering, by solid
   double reach_ = -1;                // margin of the last gathering [m]
   bool whole_ = true;                // it has all levels
