@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "framework/geometry/convex_contact/cylinder.h"
 #include "modules/dynamics_ode/body_set.h"
-#include "modules/dynamics_ode/convex/cylinder.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {

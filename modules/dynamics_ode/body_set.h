@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "framework/core/state/object_state.h"
+#include "framework/geometry/convex_contact/hull.h"
 #include "framework/scene/physics_shapes.h"
 #include "modules/dynamics_ode/body_contact.h"
-#include "modules/dynamics_ode/convex/hull.h"
 #include "modules/dynamics_ode/finger_constraint.h"
 #include "modules/dynamics_ode/ode_types.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/ode_types.h"
 
 namespace presa::ode {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "framework/geometry/index.h"
 #include "framework/scene/ages.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
-#include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
 namespace presa::ode {
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/body_contacts.h"
 #include "modules/dynamics_ode/body_effect_forces.h"
 #include "modules/dynamics_ode/body_set.h"
@@ -17,7 +18,6 @@
 #include "modules/dynamics_ode/finger_impulses.h"
 #include "modules/dynamics_ode/finger_joints.h"
 #include "modules/dynamics_ode/hit_finder.h"
-#include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/islands.h"
 #include "modules/dynamics_ode/joints/engine_joints.h"
 #include "modules/dynamics_ode/joints/joint_set.h"

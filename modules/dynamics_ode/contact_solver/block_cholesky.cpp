@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
 namespace presa::ode {
 namespace {}  // namespace

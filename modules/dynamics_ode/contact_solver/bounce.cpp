@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/contact_joints.h"
-#include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
 namespace {

@@ -10,8 +10,8 @@
 #include <span>
 #include <utility>
 
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/contact_solver/joint_rows.h"
-#include "modules/dynamics_ode/index.h"
 #include "modules/dynamics_ode/joints/joint_pose.h"
 #include "modules/dynamics_ode/rotation.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
 namespace presa::ode {
 namespace {

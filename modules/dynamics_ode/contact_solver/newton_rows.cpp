@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
 namespace presa::ode::newton {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {

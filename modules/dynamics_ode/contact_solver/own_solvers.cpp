@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/contact_solver/joined_pair.h"
 #include "modules/dynamics_ode/contact_solver/one_axis.h"
-#include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 #include "modules/dynamics_ode/rotation.h"
 
 namespace presa::ode {

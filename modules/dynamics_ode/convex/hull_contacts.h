@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "framework/geometry/convex_contact/cylinder.h"
+#include "framework/geometry/convex_contact/manifold.h"
 #include "modules/dynamics_ode/body_set.h"
-#include "modules/dynamics_ode/convex/cylinder.h"
-#include "modules/dynamics_ode/convex/manifold.h"
 
 namespace presa::ode {
 

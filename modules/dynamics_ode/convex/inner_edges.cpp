@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/dynamics_ode/convex/nearest.h"
+#include "framework/geometry/convex_contact/nearest.h"
 
 namespace presa::ode {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "framework/geometry/convex_contact/cylinder.h"
+#include "framework/geometry/convex_contact/manifold.h"
 #include "modules/dynamics_ode/body_set.h"
 #include "modules/dynamics_ode/broad_phase.h"
-#include "modules/dynamics_ode/convex/cylinder.h"
-#include "modules/dynamics_ode/convex/manifold.h"
 
 namespace presa::ode {
 

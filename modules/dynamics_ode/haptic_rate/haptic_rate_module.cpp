@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "framework/geometry/index.h"
 #include "framework/scene/physics_shapes.h"
 #include "framework/session/module_plugin.h"
 #include "modules/dynamics_ode/engine.h"
 #include "modules/dynamics_ode/finger_impulses.h"
 #include "modules/dynamics_ode/haptic_rate/meshes_of_ode.h"
-#include "modules/dynamics_ode/index.h"
 
 namespace presa::ode {
 namespace {

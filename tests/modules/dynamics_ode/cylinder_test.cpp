@@ -1,4 +1,4 @@
-#include "modules/dynamics_ode/convex/cylinder.h"
+#include "framework/geometry/convex_contact/cylinder.h"
 
 #include <numbers>
 #include <random>

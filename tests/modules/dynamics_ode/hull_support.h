@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "modules/dynamics_ode/convex/manifold.h"
+#include "framework/geometry/convex_contact/manifold.h"
 
 /// Contacts of two hulls, for tests.
 namespace presa::ode {

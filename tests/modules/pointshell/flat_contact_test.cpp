@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "framework/core/math/random.h"
-#include "tests/modules/pointshell/mesh_file.h"
-#include "tests/modules/pointshell/one_tool.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/one_tool.h"
 
 namespace presa::flat_contact_test {
 namespace {

@@ -1,16 +1,10 @@
-#include "modules/dynamics_ode/convex/nearest.h"
+#include "framework/geometry/convex_contact/nearest.h"
 
 #include <algorithm>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
-namespace presa::ode {
-
-Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double length = ab.squaredNorm();
-  return length > 0 ? Vec3(a + std::clamp((p - a).dot(ab) / length, 0.0, 1.0) * ab) : a;
-}
+namespace presa {
 
 std::pair<Vec3, Vec3> nearestOf(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
   const Vec3 u = a1 - a0, v = b1 - b0, w = a0 - b0;
@@ -65,4 +59,4 @@ bool nearestOutside(const Hull& hull, const Hull& core, Vec3& on_hull, Vec3& on_
   return best < 1e300 && best > 0;
 }
 
-}  // namespace presa::ode
+}  // namespace presa

@@ -1,16 +1,16 @@
 // Separating axis test with Gauss maps and clipping (Gregorius, "Robust contact creation for physics simulations",
 // GDC 2013). A face wins over a pair of edges unless the edges are separated by kPrefer more: faces give several points,
 // and their normals do not jump.
-#include "modules/dynamics_ode/convex/manifold.h"
+#include "framework/geometry/convex_contact/manifold.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "modules/dynamics_ode/convex/nearest.h"
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/convex_contact/nearest.h"
+#include "framework/geometry/index.h"
 
-namespace presa::ode {
+namespace presa {
 namespace {
 
 constexpr double kPrefer = 1e-4;         // in relation to the smaller hull
@@ -320,4 +320,4 @@ void ManifoldMaker::collide(const Hull& A, const Hull& B, double margin, Contact
   clipAlong(A, B, nhat, margin, 1, out);
 }
 
-}  // namespace presa::ode
+}  // namespace presa

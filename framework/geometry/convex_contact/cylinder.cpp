@@ -1,13 +1,13 @@
-#include "modules/dynamics_ode/convex/cylinder.h"
+#include "framework/geometry/convex_contact/cylinder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
-#include "modules/dynamics_ode/convex/nearest.h"
+#include "framework/geometry/convex_contact/nearest.h"
 
-namespace presa::ode {
+namespace presa {
 namespace {
 
 // sines
@@ -93,4 +93,4 @@ Vec3 shortestWay(const Hull& A, const Hull& B) {
   return way.norm() > 0 ? Vec3(way.normalized()) : Vec3::UnitZ();
 }
 
-}  // namespace presa::ode
+}  // namespace presa

@@ -1,15 +1,15 @@
 #pragma once
 #include <utility>
 
-#include "modules/dynamics_ode/convex/hull.h"
+#include "framework/geometry/closest_point.h"
+#include "framework/geometry/convex_contact/hull.h"
 
 /// Nearest points of points, segments and polyhedra.
-namespace presa::ode {
+namespace presa {
 
-Vec3 closestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b);
 /// Of the segments a0 a1 and b0 b1.
 std::pair<Vec3, Vec3> nearestOf(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1);
 /// Of a polyhedron and the point or segment of `core`, without radii. False when they meet.
 bool nearestOutside(const Hull& hull, const Hull& core, Vec3& on_hull, Vec3& on_core);
 
-}  // namespace presa::ode
+}  // namespace presa

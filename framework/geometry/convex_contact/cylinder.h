@@ -2,12 +2,12 @@
 #include <array>
 #include <utility>
 
-#include "modules/dynamics_ode/convex/hull.h"
+#include "framework/geometry/convex_contact/hull.h"
 
 /// Cylinders as convex polyhedra that never show their corners: for every contact a prism is turned about the axis until
 /// one of its corners, which lie on the cylinder, points at the other body. A wheel rolls on its true radius and a coin
 /// wobbles on its true rim. Where the curved side touches, the axis with the radius stands for the cylinder instead.
-namespace presa::ode {
+namespace presa {
 
 /// Corners of each end of the prism: as many as a manifold has points, so that an end lies on all of them.
 constexpr int kCorners = 8;
@@ -49,4 +49,4 @@ class FacingHulls {
 /// Unit vector along the shortest way from A to B, of which at most one has faces; from centre to centre where they meet.
 Vec3 shortestWay(const Hull& A, const Hull& B);
 
-}  // namespace presa::ode
+}  // namespace presa

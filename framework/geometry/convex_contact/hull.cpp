@@ -1,12 +1,12 @@
-#include "modules/dynamics_ode/convex/hull.h"
+#include "framework/geometry/convex_contact/hull.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "modules/dynamics_ode/index.h"
+#include "framework/geometry/index.h"
 
-namespace presa::ode {
+namespace presa {
 namespace {
 
 constexpr double kSameLine = 1e-9;  // 1 - |cosine| of parallel edges
@@ -164,4 +164,4 @@ void place(const Hull& hull, const Pose& X_WH, Hull& out) {
   if (out.edges.size() != hull.edges.size()) out.edges = hull.edges;
 }
 
-}  // namespace presa::ode
+}  // namespace presa

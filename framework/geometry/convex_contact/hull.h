@@ -6,7 +6,7 @@
 #include "framework/core/math/spatial.h"
 #include "framework/geometry/tri_mesh.h"
 
-namespace presa::ode {
+namespace presa {
 
 /// A convex polyhedron, widened by `radius` on all sides. A capsule is a segment with a radius, a sphere a point.
 struct Hull {
@@ -48,4 +48,4 @@ std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance = 1e-5);
 /// `hull` at pose X_WH, in W. Keeps the memory of `out`.
 void place(const Hull& hull, const Pose& X_WH, Hull& out);
 
-}  // namespace presa::ode
+}  // namespace presa

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/dynamics_ode/convex/hull.h"
+#include "framework/geometry/convex_contact/hull.h"
 
-namespace presa::ode {
+namespace presa {
 
 /// The contact of two hulls: one normal, and points that span the touching area. Eight, because two rectangles meet in
 /// at most so many corners: with fewer the choice among them would change from step to step.
@@ -60,4 +60,4 @@ class ManifoldMaker {
   std::vector<double> a_on_b_, b_on_a_;  // by edge of one hull and face of the other
 };
 
-}  // namespace presa::ode
+}  // namespace presa
