@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <bit>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKind = 0x3165636569507250;  // "PrPiece1": also the version of decompose()
+constexpr std::chrono::milliseconds kLong{500};  // a cut that takes longer is kept for the next load
 constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000, kMostBytes = 1U << 28U;
 
 void add(Fnv1a& hash, double value) { hash.addWord(std::bit_cast<std::uint64_t>(value)); }
@@ -131,6 +133,18 @@ void keepPieces(const std::string& file, const ConvexPieces& pieces) {
     }
   }
   fs::remove(part, failure);
+}
+
+ConvexPieces cutIntoPieces(const TriMesh& mesh, const Decomposition& wanted) {
+  const std::string file = pieceCacheFile(mesh, wanted);
+  if (std::optional<ConvexPieces> known = readPieces(file)) return std::move(*known);
+  const auto start = std::chrono::steady_clock::now();
+  ConvexPieces cut;
+  const std::vector<TriMesh> pieces = decompose(mesh, wanted.max_pieces, wanted.max_error);
+  cut.error = hausdorffDistance(mesh, pieces);
+  for (const TriMesh& piece : pieces) cut.pieces.push_back(std::make_shared<const TriMesh>(piece));
+  if (std::chrono::steady_clock::now() - start > kLong) keepPieces(file, cut);
+  return cut;
 }
 
 }  // namespace presa

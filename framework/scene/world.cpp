@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <tuple>
@@ -85,26 +84,12 @@ class MeshLibrary {
   std::vector<MeshRequest> requests_;
 };
 
-constexpr std::chrono::milliseconds kLong{500};  // a cut that takes longer is kept for the next load
-
-ConvexPieces fromCacheOrCut(const TriMesh& mesh, const Decomposition& wanted) {
-  const std::string file = pieceCacheFile(mesh, wanted);
-  if (std::optional<ConvexPieces> known = readPieces(file)) return std::move(*known);
-  const auto start = std::chrono::steady_clock::now();
-  ConvexPieces cut;
-  const std::vector<TriMesh> pieces = decompose(mesh, wanted.max_pieces, wanted.max_error);
-  cut.error = hausdorffDistance(mesh, pieces);
-  for (const TriMesh& piece : pieces) cut.pieces.push_back(std::make_shared<const TriMesh>(piece));
-  if (std::chrono::steady_clock::now() - start > kLong) keepPieces(file, cut);
-  return cut;
-}
-
 /// Cuts meshes into convex pieces, equal ones once.
 class Decomposer {
  public:
   const ConvexPieces& cut(const MeshPointer& mesh, const Decomposition& wanted) {
     const auto [found, is_new] = known_.try_emplace({mesh.get(), wanted.max_pieces, wanted.max_error});
-    if (is_new) found->second = fromCacheOrCut(*mesh, wanted);
+    if (is_new) found->second = cutIntoPieces(*mesh, wanted);
     return found->second;
   }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "framework/haptics/balanced_forces.h"
+
 namespace presa {
 namespace {
 
@@ -21,30 +23,6 @@ struct BodyContact {
   double pressure = 0;
   std::array<Octant, 8> octants;
 };
-
-/// Changes the forces, given in T, so that their sum is `wrench_T`, with the stiffnesses as weights: the force exactly,
-/// then the torque by couples, as far as places that lie apart can give it.
-void balance(BoundedList<ToolForce>& forces, const Vec6& wrench_T) noexcept {
-  constexpr double kSlack = 1e-6;  // of the largest resistance to turning: directions below it are left alone
-  double total = 0;
-  Vec3 centre = Vec3::Zero(), force = wrench_T.head<3>(), torque = wrench_T.tail<3>();
-  for (const ToolForce& one : forces) {
-    total += one.stiffness;
-    centre += one.stiffness * one.p_W;
-    force -= one.f_W;
-  }
-  centre /= total;
-  Mat3 turning = Mat3::Zero();
-  for (ToolForce& one : forces) {
-    one.f_W += one.stiffness / total * force;
-    torque -= one.p_W.cross(one.f_W);
-    const Vec3 arm = one.p_W - centre;
-    turning += one.stiffness * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-  }
-  turning.diagonal().array() += kSlack * (turning.trace() + 1e-9 * total);
-  const Vec3 turn = turning.ldlt().solve(torque);
-  for (ToolForce& one : forces) one.f_W += one.stiffness * turn.cross(one.p_W - centre);
-}
 
 double pressureOf(const TouchingPoint& one) noexcept { return one.f_T.dot(one.nhat_T); }
 
@@ -93,7 +71,7 @@ bool sort(const BoundedList<TouchingPoint>& touching, BodyContacts& contacts) no
   return complete;
 }
 
-/// In T until balance() has seen it.
+/// In T until balanceForces() has seen it.
 ToolForce forceOf(const Octant& octant) noexcept {
   const bool has_normal = octant.normals.norm() > 1e-9 * octant.pressure;
   return {.p_W = octant.place / octant.pressure,
@@ -123,7 +101,7 @@ bool ShellForces::add(const BoundedList<TouchingPoint>& touching, const Pose& X_
       forces.add(force);
     }
   }
-  balance(forces, wrench_T);
+  balanceForces(forces, wrench_T);
   for (ToolForce& one : forces) {
     one.p_W = X_WT * one.p_W;
     one.nhat_W = X_WT.q * one.nhat_W;

@@ -12,12 +12,13 @@
 
 namespace presa::test {
 
-/// A scene whose device "finger" holds a tool. `tool`: the element; `settings`: of the tool renderer; `bodies`: the
+/// A scene whose device "finger" holds a tool. `tool`: the element; `settings`: of the tool `renderer`; `bodies`: the
 /// bodies, of materials "smooth" and "rough" (static friction 0.5, dynamic 0.4).
 inline std::shared_ptr<const World> toolWorld(const std::string& tool, const std::string& bodies,
-                                              const std::string& settings = "") {
-  return fingerWorld(R"(<scene version="1.1" name="tool"><world gravity="0 0 0"/><haptics tools="pointshell">)" +
-                     settings + R"(</haptics><materials><material name="smooth" stiffness="1000"/>
+                                              const std::string& settings = "",
+                                              const std::string& renderer = "pointshell") {
+  return fingerWorld(R"(<scene version="1.1" name="tool"><world gravity="0 0 0"/><haptics tools=")" + renderer +
+                     R"(">)" + settings + R"(</haptics><materials><material name="smooth" stiffness="1000"/>
     <material name="rough" stiffness="1000"><friction static="0.5" dynamic="0.4"/></material></materials>)" +
                      bodies + R"(<devices><device role="finger">)" + tool + "</device></devices></scene>");
 }

@@ -111,7 +111,7 @@ Hull capsuleHull(double radius, double length) {
   return hull;
 }
 
-std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance) {
+std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance, std::size_t max_faces) {
   if (mesh.vertices.size() < 4) return std::nullopt;
   const AxisBox bounds = boundsOf(mesh);
   const double size = (bounds.high - bounds.low).norm(), close = tolerance * size;
@@ -131,7 +131,7 @@ std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance) {
       return face.nhat.dot(nhat) > 1 - 1e-10 && std::abs(face.offset - offset) < close;
     });
     if (same == hull.faces.end()) {
-      if (hull.faces.size() == kMaxMeshFaces) return std::nullopt;
+      if (hull.faces.size() == max_faces) return std::nullopt;
       hull.faces.push_back({nhat, offset, {}});
       groups.push_back({t});
     } else {

@@ -42,8 +42,8 @@ Hull capsuleHull(double radius, double length);
 /// A pair costs the product of their edges: a mesh with more faces is no hull.
 constexpr std::size_t kMaxMeshFaces = 64;
 /// The faces of a convex mesh, coplanar triangles merged; none when the mesh is not closed and convex within
-/// `tolerance` of its size, or has more than kMaxMeshFaces faces.
-std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance = 1e-5);
+/// `tolerance` of its size, or has more than `max_faces` faces.
+std::optional<Hull> meshHull(const TriMesh& mesh, double tolerance = 1e-5, std::size_t max_faces = kMaxMeshFaces);
 
 /// `hull` at pose X_WH, in W. Keeps the memory of `out`.
 void place(const Hull& hull, const Pose& X_WH, Hull& out);

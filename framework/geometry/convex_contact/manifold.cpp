@@ -234,7 +234,36 @@ bool besideFaces(const Hull& A, const Hull& B, const Vec3& nhat_face, double mar
   return true;
 }
 
+double leastGap(const Manifold& manifold) {
+  double gap = 1e300;
+  for (int i = 0; i < manifold.count; ++i) gap = std::min(gap, manifold.points[static_cast<std::size_t>(i)].gap);
+  return gap;
+}
+
 }  // namespace
+
+void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3& on_a, const Vec3& on_b, double margin,
+                Manifold& out) noexcept {
+  out.count = 0;
+  out.nhat_AB_W = nhat_AB_W;
+  const bool a_is_round = A.faces.empty(), b_is_round = B.faces.empty();
+  const double gap = nhat_AB_W.dot(on_b - on_a);
+  if (a_is_round && b_is_round) return collideRound(A, B, margin, out);
+  const auto along = [&](const Hull& hull, const Vec3& nhat) {
+    return hull.faces[faceAlong(hull, nhat)].nhat.dot(nhat);
+  };
+  const double of_a = a_is_round ? -1 : along(A, nhat_AB_W), of_b = b_is_round ? -1 : along(B, -nhat_AB_W);
+  const bool oblique = (a_is_round || b_is_round) && std::max(of_a, of_b) < 1 - kOblique;
+  if (oblique) return setPoint(on_a, on_b, 0, 0, margin, nhat_AB_W, out);
+  if (of_a >= of_b) {
+    clipAlong(A, B, nhat_AB_W, margin, 1, out);
+  } else {
+    clipAlong(B, A, -nhat_AB_W, margin, -1, out);
+  }
+  // faces that do not cover each other at the nearest points
+  if (gap <= margin && leastGap(out) > gap + kPrefer * std::min(sizeOf(A), sizeOf(B)))
+    setPoint(on_a, on_b, 0, 0, margin, nhat_AB_W, out);
+}
 
 // The best pair of edges.
 void ManifoldMaker::separateByEdges(const Hull& A, const Hull& B, EdgePair& best) const {

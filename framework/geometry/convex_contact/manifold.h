@@ -32,6 +32,11 @@ struct ContactAxis {
   std::int32_t a = 0, b = 0;  ///< indices of faces or edges
 };
 
+/// Points at which A and B (both in W) overlap or come within `margin` [m] of each other along `nhat_AB_W`, which was
+/// found otherwise with the nearest points `on_a` and `on_b` of the surfaces. Thread: any; nonblocking.
+void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3& on_a, const Vec3& on_b, double margin,
+                Manifold& out) noexcept;
+
 /// Makes the contact of two hulls by the separating axis test: the normal is that of the face, or square to the pair of
 /// edges, along which they are separated most (overlap least); the points are the corners of the area in which the two
 /// faces along it cover each other [Gregorius2013].

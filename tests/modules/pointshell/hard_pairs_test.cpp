@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "framework/haptics/virtual_coupling.h"
-#include "tests/support/alloc_lock_guard.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/one_tool.h"
+#include "tests/support/alloc_lock_guard.h"
 
 namespace presa::hard_pairs_test {
 namespace {

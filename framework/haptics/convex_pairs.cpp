@@ -1,0 +1,114 @@
+#include "framework/haptics/convex_pairs.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace presa {
+
+ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>& bodies)
+    : tool_(tool), bodies_(bodies), X_WB_(bodies.size()), near_(kMaxNear) {
+  for (const ConvexSolid& body : bodies) {
+    first_part_.push_back(bodies_in_W_.size());
+    for (const ConvexPart& part : body.parts) bodies_in_W_.push_back(part.support.hull());
+  }
+  for (const ConvexPart& part : tool.parts) tool_in_W_.push_back(part.support.hull());
+  centres_W_.resize(bodies_in_W_.size());
+  memories_.resize(bodies_in_W_.size() * tool.parts.size());
+  // the stand-ins of cylinders take their memory
+  const Hull cylinder = cylinderHull(1, 4), ball = sphereHull(1);
+  for (const Vec3& away : {Vec3(3, 0, 0), Vec3(1, 0, 5)}) {
+    std::array<CylinderTurn, 2> turns;
+    facing_.of({cylinder, {}, nullptr, &turns[0]}, {cylinder, {away, Quat::Identity()}, nullptr, &turns[1]});
+  }
+}
+
+void ConvexPairs::place(const Touchables& touchables) noexcept {
+  for (std::size_t s = 0; s < bodies_.size(); ++s) {
+    X_WB_[s] = touchables.frameOf(bodies_[s].body);
+    for (std::size_t p = 0; p < bodies_[s].parts.size(); ++p)
+      centres_W_[first_part_[s] + p] = X_WB_[s] * bodies_[s].parts[p].centre_A;
+  }
+}
+
+bool ConvexPairs::gather(const Pose& X_WT, double reach) noexcept {
+  near_.clear();
+  for (std::size_t t = 0; t < tool_.parts.size(); ++t) {
+    const Vec3 centre_W = X_WT * tool_.parts[t].centre_A;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+      for (std::size_t p = 0; p < bodies_[s].parts.size(); ++p) {
+        const double within = reach + tool_.parts[t].reach + bodies_[s].parts[p].reach;
+        if ((centres_W_[first_part_[s] + p] - centre_W).squaredNorm() > within * within) continue;
+        near_.add({static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(p)});
+      }
+    }
+  }
+  return near_.lost() == 0;
+}
+
+double ConvexPairs::clearance(const Pose& X_WT) const noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ConvexPart& own : tool_.parts) {
+    const Vec3 centre_W = X_WT * own.centre_A;
+    for (std::size_t s = 0; s < bodies_.size(); ++s) {
+      for (std::size_t p = 0; p < bodies_[s].parts.size(); ++p) {
+        const double apart = (centres_W_[first_part_[s] + p] - centre_W).norm();
+        least = std::min(least, apart - own.reach - bodies_[s].parts[p].reach);
+      }
+    }
+  }
+  return least;
+}
+
+// Coordinates count from the tool's origin, so that they keep their digits far from the world's.
+PlacedSupport ConvexPairs::placedBody(const NearParts& pair) const noexcept {
+  const ConvexPart& part = bodies_[pair.solid].parts[pair.part];
+  const Pose X_WP = X_WB_[pair.solid] * part.X_AP;
+  return {part.support, X_WP.q.toRotationMatrix(), X_WP.p - X_WT_.p};
+}
+
+PlacedSupport ConvexPairs::placedTool(const NearParts& pair) const noexcept {
+  const ConvexPart& part = tool_.parts[pair.tool_part];
+  return {part.support, (X_WT_.q * part.X_AP.q).toRotationMatrix(), X_WT_.q * part.X_AP.p};
+}
+
+void ConvexPairs::separate(const Pose& X_WT, double beyond) noexcept {
+  for (NearParts& pair : near_) separate(pair, X_WT, beyond);
+}
+
+void ConvexPairs::separate(NearParts& pair, const Pose& X_WT, double beyond) noexcept {
+  X_WT_ = X_WT;
+  const PlacedSupport body = placedBody(pair), tool = placedTool(pair);
+  DistanceMemory& memory = memoryOf(pair).distance;
+  const ConvexDistance found = distance(body, tool, beyond, memory);
+  SupportingPlane plane{found.nhat_AB, found.gap, found.on_a, found.on_b};
+  pair.overlaps = found.kind == ConvexDistance::Kind::kOverlap;
+  if (pair.overlaps) {
+    plane = memory.nhat_AB.isZero() ? planeOfFaces(body, tool, memory) : planeAlong(body, tool, memory.nhat_AB, memory);
+    memory.nhat_AB = plane.nhat_AB;
+  }
+  pair.nhat_W = plane.nhat_AB;
+  pair.gap = plane.gap;
+  pair.on_body_W = X_WT.p + plane.on_a;
+  pair.on_tool_W = X_WT.p + plane.on_b;
+}
+
+void ConvexPairs::touch(const NearParts& pair, double margin, Manifold& out) noexcept {
+  const PlacedSupport body = placedBody(pair), tool = placedTool(pair);
+  const Pose X_body{body.p, X_WB_[pair.solid].q * bodies_[pair.solid].parts[pair.part].X_AP.q},
+      X_tool{tool.p, X_WT_.q * tool_.parts[pair.tool_part].X_AP.q};
+  Hull& of_body = bodies_in_W_[first_part_[pair.solid] + pair.part];
+  Hull& of_tool = tool_in_W_[pair.tool_part];
+  const Hull &body_hull = body.support.hull(), &tool_hull = tool.support.hull();
+  presa::place(body_hull, X_body, of_body);
+  presa::place(tool_hull, X_tool, of_tool);
+  std::array<CylinderTurn, 2>& turns = memoryOf(pair).turns;
+  const auto [a, b] = facing_.of({body_hull, X_body, &of_body, &turns[0]}, {tool_hull, X_tool, &of_tool, &turns[1]});
+  touchAlong(*a, *b, pair.nhat_W, pair.on_body_W - X_WT_.p, pair.on_tool_W - X_WT_.p, margin, out);
+  for (int i = 0; i < out.count; ++i) out.points[static_cast<std::size_t>(i)].p_W += X_WT_.p;
+}
+
+void ConvexPairs::forget() noexcept {
+  for (Memory& memory : memories_) memory = {};
+}
+
+}  // namespace presa

@@ -1,0 +1,82 @@
+// With the set S of contacts that press, f_i = -k (J_i u + gap_i), so that u solves a system of six unknowns only:
+//   (Q + k sum_S J_i J_i^T) u = r - k sum_S gap_i J_i,
+// however many contacts there are. A set fits if exactly its own contacts overlap after the step. Equivalently u is the
+// minimum of the convex energy E(u) = u Q u / 2 - r u + k / 2 sum of min(0, J_i u + gap_i)^2: a pivot goes from u towards
+// the solution of its set, as far as E falls, so that no set comes twice.
+#include "modules/light_cursor/contact_lcp.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+constexpr int kMaxPivots = 40;
+constexpr int kBisections = 40;  // of a way, when E rises before its end
+constexpr double kFits = 1e-12;  // gap of a contact that counts as none [m]
+
+Vec6 rowOf(const CursorContact& contact) noexcept {
+  Vec6 row;
+  row << contact.nhat, contact.p.cross(contact.nhat);
+  return row;
+}
+
+double gapAfter(const CursorContact& contact, const Vec6& u) noexcept { return rowOf(contact).dot(u) + contact.gap; }
+
+/// Step of the set of contacts that overlap after u.
+Vec6 stepOf(const ContactProblem& problem, const BoundedList<CursorContact>& contacts, const Vec6& u) noexcept {
+  Mat6 Q = problem.Q;
+  Vec6 r = problem.r;
+  for (const CursorContact& one : contacts) {
+    if (!(gapAfter(one, u) < 0)) continue;
+    const Vec6 row = rowOf(one);
+    Q.noalias() += problem.k * row * row.transpose();
+    r -= problem.k * one.gap * row;
+  }
+  return Q.ldlt().solve(r);
+}
+
+bool sameSet(const BoundedList<CursorContact>& contacts, const Vec6& u, const Vec6& next) noexcept {
+  return std::all_of(contacts.begin(), contacts.end(), [&](const CursorContact& one) {
+    const double before = gapAfter(one, u), after = gapAfter(one, next);
+    return (before < 0) == (after < 0) || std::abs(after) <= kFits;
+  });
+}
+
+/// Part of the way from u by `way` at which E is lowest. Its slope along the way grows.
+double lowest(const ContactProblem& problem, const BoundedList<CursorContact>& contacts, const Vec6& u,
+              const Vec6& way) noexcept {
+  const double linear = way.dot(problem.Q * u - problem.r), square = way.dot(problem.Q * way);
+  const auto slope = [&](double t) {
+    double sum = linear + t * square;
+    for (const CursorContact& one : contacts) {
+      const Vec6 row = rowOf(one);
+      const double closing = row.dot(way);
+      sum += problem.k * std::min(0.0, row.dot(u) + one.gap + t * closing) * closing;
+    }
+    return sum;
+  };
+  if (slope(1) <= 0) return 1;
+  double low = 0, high = 1;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (low + high) / 2;
+    (slope(middle) > 0 ? high : low) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+Pivots solveContacts(const ContactProblem& problem, BoundedList<CursorContact>& contacts, Vec6& u) noexcept {
+  u = problem.Q.ldlt().solve(problem.r);
+  Pivots pivots{1, contacts.empty()};
+  while (!pivots.exact && pivots.count < kMaxPivots) {
+    ++pivots.count;
+    const Vec6 next = stepOf(problem, contacts, u);
+    pivots.exact = sameSet(contacts, u, next);
+    u = pivots.exact ? next : Vec6(u + lowest(problem, contacts, u, next - u) * (next - u));
+  }
+  for (CursorContact& one : contacts) one.force = std::max(0.0, -problem.k * gapAfter(one, u));
+  return pivots;
+}
+
+}  // namespace presa

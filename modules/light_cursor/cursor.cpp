@@ -1,0 +1,120 @@
+// One implicit Euler step of a rigid body [Harwin & Barrow 2013, 4.1.2]: with u the motion and turn of the step of length
+// h, (M / h^2 + K + C / h) u = M v / h + wrench of the handle + contacts. Gyroscopic moments of so light a body are left
+// out.
+#include "modules/light_cursor/cursor.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+constexpr double kMaxStep = 0.004;  // motion of a point in a tick: 4 m/s [m]
+constexpr double kAhead = 1e-4;     // contacts are found this far beyond the motion that the handle wants [m]
+constexpr int kRounds = 4;          // in which pairs that hold turn out to slide
+
+Mat3 crossMatrix(const Vec3& v) noexcept {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+Cursor::Cursor(const ConvexSolid& tool, const std::vector<ConvexSolid>& bodies,
+               const std::vector<FrictionCoefficients>& friction, const ToolCoupling& coupling,
+               const MassProperties& inertia, const CursorLaw& law)
+    : tool_(tool),
+      coupling_(coupling),
+      pairs_(tool, bodies),
+      law_(law),
+      contacts_(law.max_contacts),
+      sticking_(law.stiffness, friction, ConvexPairs::kMaxNear) {
+  for (const ConvexPart& part : tool_.parts) radius_ = std::max(radius_, part.centre_A.norm() + part.reach);
+  p_TCm_ = inertia.center;
+  const Mat3 arm = crossMatrix(p_TCm_);
+  inertia_T_ = law.mass / inertia.volume * inertia.inertia - law.mass * arm * arm;
+}
+
+void Cursor::reset() noexcept {
+  v_.setZero();
+  of_handle_.setZero();
+  contacts_.clear();
+  sticking_.letGo();
+  pairs_.forget();
+}
+
+Mat6 Cursor::massAt(const Quat& q_WT) const noexcept {
+  const Mat3 R = q_WT.toRotationMatrix(), arm = crossMatrix(R * p_TCm_);
+  Mat6 mass;
+  mass << law_.mass * Mat3::Identity(), -law_.mass * arm, law_.mass * arm, R * inertia_T_ * R.transpose();
+  return mass;
+}
+
+bool Cursor::findContacts(const Pose& X_WT, double margin) noexcept {
+  contacts_.clear();
+  const bool whole = pairs_.gather(X_WT, margin);
+  pairs_.separate(X_WT, margin);
+  for (const NearParts& pair : pairs_.near()) {
+    if (pair.gap > margin) continue;
+    Manifold manifold;
+    pairs_.touch(pair, margin, manifold);
+    for (int i = 0; i < manifold.count; ++i) {
+      const Manifold::Point& point = manifold.points[static_cast<std::size_t>(i)];
+      contacts_.add({.p = point.p_W - X_WT.p,
+                     .nhat = pair.nhat_W,
+                     .gap = point.gap,
+                     .pair = static_cast<std::uint32_t>(pairs_.indexOf(pair)),
+                     .solid = pair.solid});
+    }
+  }
+  return whole && contacts_.lost() == 0;
+}
+
+// Frictionless first; then with friction for those pressures, until every pair holds or slides as was thought.
+Pivots Cursor::solve(ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept {
+  const ContactProblem without = problem;
+  Pivots pivots = solveContacts(problem, contacts_, u);
+  sticking_.begin();
+  for (int round = 0; round < kRounds; ++round) {
+    problem = without;
+    sticking_.addTo(problem, poses, contacts_);
+    const Pivots again = solveContacts(problem, contacts_, u);
+    pivots = {pivots.count + again.count, pivots.exact && again.exact};
+    if (sticking_.update(u, poses, contacts_)) break;
+  }
+  return pivots;
+}
+
+Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB, Pose& X_WT) noexcept {
+  const double h = input.period;
+  Vec6 handle;
+  handle << input.v_WH, input.w_WH;
+  const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, -h * handle, h);
+  const Mat6 mass = massAt(X_WT.q);
+  ContactProblem problem{mass / (h * h) + force.stiffness, mass * v_ / h + force.wrench, law_.stiffness};
+  Vec6 u = problem.Q.ldlt().solve(problem.r);
+  const auto wayOf = [&](const Vec6& step) { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); };
+  const double wanted = std::min(wayOf(u), kMaxStep) + kAhead;
+
+  pairs_.place(input.touchables);
+  Step result;
+  contacts_.clear();
+  if (pairs_.clearance(X_WT) < wanted) result.whole = findContacts(X_WT, wanted);
+  const CursorPoses poses{X_WT, X_WB};
+  if (contacts_.empty()) {
+    sticking_.letGo();
+  } else {
+    result.exact = solve(problem, poses, u).exact;
+  }
+  // along the way to a step that all planes allow, they allow every point
+  const double way = wayOf(u);
+  if (way > wanted && pairs_.clearance(X_WT) < way) u *= wanted / way;
+  v_ = u / h;
+  const Pose moved = movedBy(X_WT, u);
+  if (!contacts_.empty()) sticking_.keep(moved, poses, contacts_);
+  of_handle_ = couplingForce(coupling_, input.X_WH, moved, u - h * handle, h).wrench;
+  X_WT = moved;
+  return result;
+}
+
+}  // namespace presa

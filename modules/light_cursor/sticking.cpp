@@ -1,0 +1,116 @@
+#include "modules/light_cursor/sticking.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace presa {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of the limit of friction
+
+Vec3 along(const CursorContact& contact, const Vec3& v) noexcept { return v - v.dot(contact.nhat) * contact.nhat; }
+
+/// Way of the point along the surface in the step.
+Vec3 slip(const CursorContact& contact, const Vec6& u) noexcept {
+  return along(contact, u.head<3>() + Vec3(u.tail<3>()).cross(contact.p));
+}
+
+}  // namespace
+
+const Sticking::Anchor* Sticking::anchorOf(const CursorContact& contact) const noexcept {
+  const auto* found =
+      std::find_if(anchors_.begin(), anchors_.end(), [&](const Anchor& one) { return one.pair == contact.pair; });
+  return found == anchors_.end() ? nullptr : found;
+}
+
+Sticking::Anchor* Sticking::anchorOf(const CursorContact& contact) noexcept {
+  return const_cast<Anchor*>(std::as_const(*this).anchorOf(contact));
+}
+
+bool Sticking::slides(const CursorContact& contact) const noexcept {
+  const Anchor* anchor = anchorOf(contact);
+  return anchor != nullptr && anchor->slides;
+}
+
+void Sticking::begin() noexcept {
+  for (Anchor& anchor : anchors_) {
+    anchor.slid = anchor.slides;
+    anchor.slides = false;
+  }
+}
+
+Vec3 Sticking::stretchOf(const CursorContact& contact, const Anchor& anchor, const CursorPoses& poses) noexcept {
+  const Vec3 p_T = poses.X_WT.q.conjugate() * contact.p;
+  const Vec3 held_W = poses.X_WB[contact.solid] * (anchor.X_BT * p_T);
+  return along(contact, poses.X_WT.p + contact.p - held_W);
+}
+
+void Sticking::addTo(ContactProblem& problem, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept {
+  for (Anchor& anchor : anchors_) anchor.pressure = 0;
+  for (const CursorContact& one : contacts) {
+    if (Anchor* anchor = anchorOf(one)) anchor->pressure += one.force;
+  }
+  for (CursorContact& one : contacts) {
+    one.hold = 0;
+    const Anchor* anchor = anchorOf(one);
+    if (anchor == nullptr || !(one.force > 0)) continue;
+    Vec3 force = one.friction;
+    if (!anchor->slides) {
+      one.hold = stiffness_ * one.force / anchor->pressure;
+      force = -one.hold * stretchOf(one, *anchor, poses);
+      addStiffness(one.hold * (Mat3::Identity() - one.nhat * one.nhat.transpose()), one.p, problem.Q);
+    }
+    problem.r.head<3>() += force;
+    problem.r.tail<3>() += one.p.cross(force);
+  }
+}
+
+bool Sticking::update(const Vec6& u, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept {
+  for (Anchor& anchor : anchors_) anchor.pressure = anchor.limit = anchor.wanted = anchor.stretched = 0;
+  for (CursorContact& one : contacts) {
+    one.friction = Vec3::Zero();
+    Anchor* anchor = anchorOf(one);
+    if (anchor == nullptr || !(one.force > 0)) continue;
+    const FrictionCoefficients& friction = friction_[one.solid];
+    anchor->pressure += one.force;
+    anchor->limit += (anchor->slid ? friction.mu_dynamic : friction.mu_static) * one.force;
+    const Vec3 stretch = stretchOf(one, *anchor, poses) + slip(one, u);
+    anchor->stretched += one.force * stretch.norm();
+    one.friction = -one.hold * stretch;
+    anchor->wanted += one.friction.norm();
+    if (anchor->slides && stretch.norm() > 0) one.friction = -friction.mu_dynamic * one.force * stretch.normalized();
+  }
+  bool as_thought = true;
+  for (Anchor& anchor : anchors_) {
+    if (anchor.slides || anchor.wanted <= anchor.limit * (1 + kRounding)) continue;
+    anchor.slides = true;
+    as_thought = false;
+  }
+  if (as_thought) return true;
+  for (CursorContact& one : contacts) {
+    const Anchor* anchor = anchorOf(one);
+    if (anchor == nullptr || !anchor->slides || !(one.friction.norm() > 0)) continue;
+    one.friction *= friction_[one.solid].mu_dynamic * one.force / one.friction.norm();
+  }
+  return false;
+}
+
+void Sticking::keep(const Pose& X_WT, const CursorPoses& poses, const BoundedList<CursorContact>& contacts) noexcept {
+  for (Anchor& anchor : anchors_) {
+    if (!anchor.slides) continue;
+    // the anchor follows at the distance at which the spring of friction has its dynamic limit
+    const double limit = friction_[anchor.solid].mu_dynamic * anchor.pressure * anchor.pressure,
+                 part = std::min(1.0, limit / (stiffness_ * anchor.stretched));
+    const Pose X_BT = poses.X_WB[anchor.solid].inverse() * X_WT;
+    anchor.X_BT = {X_BT.p + part * (anchor.X_BT.p - X_BT.p), X_BT.q.slerp(part, anchor.X_BT.q)};
+  }
+  for (std::size_t i = anchors_.size(); i-- > 0;) {
+    if (!(anchors_[i].pressure > 0)) anchors_.remove(i);
+  }
+  for (const CursorContact& one : contacts) {
+    if (!(one.force > 0) || anchorOf(one) != nullptr) continue;
+    anchors_.add({one.pair, one.solid, poses.X_WB[one.solid].inverse() * X_WT, false, false, one.force});
+  }
+}
+
+}  // namespace presa

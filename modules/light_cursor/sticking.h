@@ -1,0 +1,56 @@
+#pragma once
+#include <vector>
+
+#include "framework/core/exchange/bounded_list.h"
+#include "framework/scene/scene.h"
+#include "modules/light_cursor/contact_lcp.h"
+
+namespace presa {
+
+/// Where tool and bodies are in a step.
+struct CursorPoses {
+  const Pose& X_WT;               ///< of the tool, before the step
+  const std::vector<Pose>& X_WB;  ///< of the bodies, by solid
+};
+
+/// Coulomb friction on top of the frictionless contact problem: for each pair of parts the pose at which friction holds
+/// the tool on the body. The stretch of a point of contact is its way along the surface since then; its stiffness is its
+/// share of the pair's by pressure, so that all points of a pair break away at once. Thread: haptic; nonblocking except
+/// for construction.
+class Sticking {
+ public:
+  /// `stiffness`: of a pair, along the surface [N/m]. `friction`: by solid; must outlive it. For so many `pairs` in
+  /// contact.
+  Sticking(double stiffness, const std::vector<FrictionCoefficients>& friction, std::size_t pairs)
+      : stiffness_(stiffness), friction_(friction), anchors_(pairs) {}
+
+  /// Begins a step: every pair is thought to hold.
+  void begin() noexcept;
+  /// Adds friction to the problem, for the forces of `contacts`: a spring where it holds, a force where it slides.
+  void addTo(ContactProblem& problem, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept;
+  /// Finds the friction of all contacts after the step u. False: a pair slides that was thought to hold.
+  bool update(const Vec6& u, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept;
+  /// Ends the step, with the tool at X_WT: friction holds what touches there, and follows what slides.
+  void keep(const Pose& X_WT, const CursorPoses& poses, const BoundedList<CursorContact>& contacts) noexcept;
+  bool slides(const CursorContact& contact) const noexcept;  ///< in this step
+  void letGo() noexcept { anchors_.clear(); }                ///< the tool touches nothing
+
+ private:
+  struct Anchor {
+    std::uint32_t pair = 0, solid = 0;
+    Pose X_BT;
+    bool slid = false, slides = false;           // in the last step, in this one
+    double pressure = 0, limit = 0, wanted = 0;  // of its contacts: force, friction at most, friction to hold [N]
+    double stretched = 0;                        // sum of forces times stretches [N m]
+  };
+  const Anchor* anchorOf(const CursorContact& contact) const noexcept;
+  Anchor* anchorOf(const CursorContact& contact) noexcept;
+  /// Before the step.
+  static Vec3 stretchOf(const CursorContact& contact, const Anchor& anchor, const CursorPoses& poses) noexcept;
+
+  double stiffness_;
+  const std::vector<FrictionCoefficients>& friction_;
+  BoundedList<Anchor> anchors_;
+};
+
+}  // namespace presa

@@ -1,0 +1,52 @@
+// Successive tangent planes: the parts are convex, so every plane has all of its part on one side, and a motion on the
+// other side cannot meet it. Each pass solves the god-object's quadratic programme with the planes at the place that the
+// last one reached.
+#include "modules/xfca/god_object.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+constexpr int kPasses = 10;
+constexpr double kStill = 1e-8;  // a pass that moves less ends the slide [m]
+
+}  // namespace
+
+// Coordinates count from the place of the last separate().
+HalfSpaces GodObject::planesWithin(double within, double skin) const noexcept {
+  HalfSpaces planes;
+  const auto& near = pairs_.near();
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (near[i].gap - skin > within) continue;
+    planes.add({near[i].nhat_W, skin - near[i].gap, static_cast<std::int32_t>(i)}, Vec3::Zero());
+  }
+  return planes;
+}
+
+bool GodObject::slide(const Quat& q_WT, const Vec3& goal, Vec3& x) noexcept {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const double within = 2 * (goal - x).norm() + kSkin;
+    pairs_.separate({x, q_WT}, within);
+    const Vec3 step = nearestFeasible(planesWithin(within, kSkin), goal - x).y;
+    if (step.norm() <= kStill) return true;
+    x += step;
+  }
+  pairs_.separate({x, q_WT}, 2 * (goal - x).norm() + kSkin);
+  return false;
+}
+
+GodObject::Push GodObject::pushOn(const Vec3& goal, const Vec3& x) const noexcept {
+  const HalfSpaces planes = planesWithin(2 * (goal - x).norm() + kSkin, 0);
+  const Feasible there = nearestFeasible(planes, goal - x);
+  Push push;
+  push.shift = there.y - (goal - x);
+  for (int a = 0; a < there.active_count; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    push.parts[i] = {planes.item[static_cast<std::size_t>(there.active[i])].nhat, there.weight[i]};
+  }
+  push.count = there.active_count;
+  return push;
+}
+
+}  // namespace presa

@@ -1,0 +1,90 @@
+#include "modules/xfca/pair_objects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace presa {
+namespace {
+
+// Objects ride this far above the surface, so that a part that the step takes them below it is still found by its
+// distance, which has a direction; forces do not see it [m].
+constexpr double kAbove = 2e-4;
+constexpr double kMaxStep = 0.75 * kAbove;  // towards the handle
+constexpr double kRounding = 1e-7;          // added to the step [m]
+
+}  // namespace
+
+double stepTowardsHandle(double radius, double d) noexcept {
+  return d < radius ? radius - std::sqrt(radius * radius - d * d) : radius;
+}
+
+bool PairObjects::begin(const NearParts& pair, const Pose& X_WH, const Pose& X_WB, Contact& contact) noexcept {
+  if (pair.gap >= 0) return false;
+  const Vec3 at_W = X_WH.p + (kAbove - pair.gap) * pair.nhat_W;
+  contact.touching = true;
+  contact.slipping = false;
+  contact.surface_B = contact.god_B = X_WB.inverseTimes(at_W);
+  contact.nhat_B = contact.god_nhat_B = X_WB.q.conjugate() * pair.nhat_W;
+  return true;
+}
+
+bool PairObjects::moveTo(NearParts& pair, const Quat& q_WT, const Vec3& goal, Vec3& x, Vec3& nhat) noexcept {
+  const Vec3 way = goal - x, along = way - way.dot(nhat) * nhat;
+  const double step = std::min(kMaxStep, stepTowardsHandle(law_.curvature, along.norm()) + kRounding);
+  const Vec3 at = x + along - step * nhat;
+  pairs_.separate(pair, {at, q_WT}, 2 * kAbove);
+  if (pair.gap > kAbove) return false;
+  nhat = pair.nhat_W;
+  x = at + (kAbove - pair.gap) * nhat;
+  return true;
+}
+
+bool PairObjects::follow(NearParts& pair, const Pose& X_WH, const Pose& X_WB, Contact& contact) noexcept {
+  Vec3 surface = X_WB * contact.surface_B, god = X_WB * contact.god_B;
+  Vec3 nhat = X_WB.q * contact.nhat_B, god_nhat = X_WB.q * contact.god_nhat_B;
+  if ((X_WH.p - (god - kAbove * god_nhat)).dot(god_nhat) >= 0) return false;
+  NearParts at_god = pair;
+  // without a surface there, the surface-object waits where it found the last one
+  moveTo(pair, X_WH.q, X_WH.p, surface, nhat);
+  const double depth = (X_WH.p - (surface - kAbove * nhat)).norm();
+  const Vec3 goal = heldByFriction(surface, god, depth, friction_[pair.solid], law_.fraction, contact.slipping);
+  if (contact.slipping && !moveTo(at_god, X_WH.q, goal, god, god_nhat)) return false;
+  contact.surface_B = X_WB.inverseTimes(surface);
+  contact.god_B = X_WB.inverseTimes(god);
+  contact.nhat_B = X_WB.q.conjugate() * nhat;
+  contact.god_nhat_B = X_WB.q.conjugate() * god_nhat;
+  return true;
+}
+
+void PairObjects::touch(const Pose& X_WH, const Touchables& touchables, BoundedList<ToolForce>& forces) noexcept {
+  double longest = 0;
+  for (const Contact& contact : contacts_) {
+    if (contact.touching) longest = std::max(longest, contact.reach);
+  }
+  pairs_.gather(X_WH, 2 * longest + 2 * kAbove);
+  pairs_.separate(X_WH, 2 * kAbove);
+  for (const NearParts& near : pairs_.near()) {
+    NearParts pair = near;
+    Contact& contact = contacts_[pairs_.indexOf(pair)];
+    const std::int32_t body = bodies_[pair.solid].body;
+    const Pose X_WB = touchables.frameOf(body);
+    contact.touching = contact.touching ? follow(pair, X_WH, X_WB, contact) : begin(pair, X_WH, X_WB, contact);
+    if (!contact.touching) continue;
+    const Vec3 nhat = X_WB.q * contact.god_nhat_B, shift = X_WB * contact.god_B - kAbove * nhat - X_WH.p;
+    contact.reach = shift.norm();
+    forces.add({.body = body,
+                .p_W = (pair.on_body_W + pair.on_tool_W) / 2,
+                .nhat_W = nhat,
+                .f_W = law_.stiffness * shift,
+                .stiffness = law_.stiffness,
+                .friction_static = friction_[pair.solid].mu_static,
+                .friction_dynamic = friction_[pair.solid].mu_dynamic,
+                .slips = contact.slipping});
+  }
+}
+
+void PairObjects::letGo() noexcept {
+  for (Contact& contact : contacts_) contact = {};
+}
+
+}  // namespace presa

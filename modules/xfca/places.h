@@ -1,0 +1,37 @@
+#pragma once
+#include "framework/core/exchange/bounded_list.h"
+#include "framework/haptics/convex_pairs.h"
+#include "framework/haptics/tool_renderer.h"
+#include "modules/xfca/god_object.h"
+
+namespace presa {
+
+/// A place at which a body pushes the tool.
+struct Place {
+  std::int32_t body = kNoBody;  ///< index into Scene::bodies
+  Vec3 p_W = Vec3::Zero();      ///< [m]
+  Vec3 nhat_W = Vec3::UnitZ();  ///< unit, body into tool
+  double depth = 0;             ///< its part of the push, along nhat_W [m]
+};
+
+/// Where a push acts: surfaces that lie on each other share it as an elastic layer on their corners would, so that its
+/// centre moves without a jump as the tool leans. Thread: haptic; nonblocking except for construction.
+class Places {
+ public:
+  static constexpr std::size_t kMax = 48;
+
+  Places(ConvexPairs& pairs, const std::vector<ConvexSolid>& bodies) : pairs_(pairs), bodies_(bodies), all_(kMax) {}
+
+  /// For the pairs as at the last separate(). False: there are more than kMax.
+  bool find(const GodObject::Push& push) noexcept;
+  const BoundedList<Place>& all() const noexcept { return all_; }
+
+ private:
+  void findAlong(const GodObject::Push::Part& part, double depth) noexcept;
+
+  ConvexPairs& pairs_;
+  const std::vector<ConvexSolid>& bodies_;
+  BoundedList<Place> all_;
+};
+
+}  // namespace presa
