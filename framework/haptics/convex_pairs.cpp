@@ -4,6 +4,26 @@
 #include <limits>
 
 namespace presa {
+namespace {
+
+constexpr double kApart = 2e-5;  // gap at which the plane of an overlap is looked for [m]
+
+// Along the plane of the last tick the tool is taken out of the body, and a little farther; from there the shortest way
+// has a direction, which follows tool and body as they turn.
+SupportingPlane planeOfOverlap(const PlacedSupport& body, const PlacedSupport& tool, DistanceMemory& memory) noexcept {
+  const SupportingPlane last =
+      memory.nhat_AB.isZero() ? planeOfFaces(body, tool, memory) : planeAlong(body, tool, memory.nhat_AB, memory);
+  const Vec3 out = (kApart - last.gap) * last.nhat_AB;
+  memory.nhat_AB = last.nhat_AB;
+  const ConvexDistance found = distance(body, {tool.support, tool.R, tool.p + out}, 2 * kApart, memory);
+  const double gap = found.gap - out.dot(found.nhat_AB);
+  if (found.kind == ConvexDistance::Kind::kNearest && gap > last.gap)
+    return {found.nhat_AB, gap, found.on_a, found.on_b - out};
+  memory.nhat_AB = last.nhat_AB;
+  return last;
+}
+
+}  // namespace
 
 ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>& bodies)
     : tool_(tool), bodies_(bodies), X_WB_(bodies.size()), near_(kMaxNear) {
@@ -82,10 +102,7 @@ void ConvexPairs::separate(NearParts& pair, const Pose& X_WT, double beyond) noe
   const ConvexDistance found = distance(body, tool, beyond, memory);
   SupportingPlane plane{found.nhat_AB, found.gap, found.on_a, found.on_b};
   pair.overlaps = found.kind == ConvexDistance::Kind::kOverlap;
-  if (pair.overlaps) {
-    plane = memory.nhat_AB.isZero() ? planeOfFaces(body, tool, memory) : planeAlong(body, tool, memory.nhat_AB, memory);
-    memory.nhat_AB = plane.nhat_AB;
-  }
+  if (pair.overlaps) plane = planeOfOverlap(body, tool, memory);
   pair.nhat_W = plane.nhat_AB;
   pair.gap = plane.gap;
   pair.on_body_W = X_WT.p + plane.on_a;

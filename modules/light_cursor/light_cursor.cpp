@@ -12,6 +12,7 @@
 namespace presa {
 namespace {
 
+constexpr int kBounce = 10;        // ticks without contact after which the hand feels nothing
 constexpr double kMaxSqueeze = 4;  // of a body, in relation to what the handle can press with all its levers
 
 class LightCursor final : public ToolRenderer {
@@ -23,15 +24,24 @@ class LightCursor final : public ToolRenderer {
 
  private:
   void place(const ToolInput& input) noexcept;
-  void write(const ToolInput& input, const Cursor& cursor, const Vec3& p_WT, BoundedList<ToolForce>& forces) noexcept;
+  /// One tool of the scene.
+  struct Held {
+    Held(const Cursor& made, std::size_t contacts) : cursor(made), last(contacts) {}
+    Cursor cursor;
+    BoundedList<ToolForce> last;  // of the last tick with contacts; places count from the tool's origin
+    int bounce = kBounce;         // ticks since then
+  };
+  /// The contacts of this tick; false: there are none.
+  bool list(const ToolCoupling& coupling, const Cursor& cursor, BoundedList<ToolForce>& forces) noexcept;
+  void write(const ToolInput& input, Held& held, const Vec3& p_WT, BoundedList<ToolForce>& forces) noexcept;
 
   const Scene& scene_;
   CursorLaw law_;
   std::vector<ConvexSolid> bodies_, tools_;
-  std::vector<Pose> X_WB_;                        // by body of bodies_
-  std::vector<FrictionCoefficients> friction_;    // the same
-  std::vector<double> pressure_;                  // the same: sum of the forces on it [N]
-  std::vector<std::unique_ptr<Cursor>> cursors_;  // by device role; null: a fingertip
+  std::vector<Pose> X_WB_;                      // by body of bodies_
+  std::vector<FrictionCoefficients> friction_;  // the same
+  std::vector<double> pressure_;                // the same: sum of the forces on it [N]
+  std::vector<std::unique_ptr<Held>> held_;     // by device role; null: a fingertip
 };
 
 PartSettings partSettings(const PluginElement& settings) {
@@ -50,11 +60,12 @@ LightCursor::LightCursor(const PluginElement& settings, const World& world)
       friction_(bodies_.size()),
       pressure_(bodies_.size()) {
   for (std::size_t d = 0; d < scene_.devices.size(); ++d) {
-    cursors_.push_back(nullptr);
+    held_.push_back(nullptr);
     if (!world.tools[d]) continue;
     tools_[d] = convexTool(world, d, partSettings(settings));
-    cursors_.back() = std::make_unique<Cursor>(tools_[d], bodies_, friction_, scene_.devices[d].tool->coupling,
-                                               massProperties(*world.tools[d]), law_);
+    const Cursor cursor(tools_[d], bodies_, friction_, scene_.devices[d].tool->coupling,
+                        massProperties(*world.tools[d]), law_);
+    held_.back() = std::make_unique<Held>(cursor, law_.max_contacts);
   }
 }
 
@@ -68,29 +79,30 @@ void LightCursor::place(const ToolInput& input) noexcept {
 }
 
 void LightCursor::touch(const ToolInput& input, BoundedList<ToolForce>& forces, ToolState& state) noexcept {
-  Cursor& cursor = *cursors_[input.tool];
+  Held& held = *held_[input.tool];
   place(input);
-  if (!state.alive) cursor.reset();
-  const Cursor::Step step = cursor.step(input, X_WB_, state.X_WT);
-  write(input, cursor, state.X_WT.p, forces);
+  if (!state.alive) {
+    held.cursor.reset();
+    held.bounce = kBounce;
+  }
+  const Cursor::Step step = held.cursor.step(input, X_WB_, state.X_WT);
+  write(input, held, state.X_WT.p, forces);
   state.points = static_cast<std::uint32_t>(forces.size());
   state.coarse += step.whole ? 0 : 1;
   state.late += step.exact ? 0 : 1;
   state.depth = 0;
-  for (const CursorContact& one : cursor.contacts()) state.depth = std::max(state.depth, one.force / law_.stiffness);
+  for (const CursorContact& one : held.cursor.contacts())
+    state.depth = std::max(state.depth, one.force / law_.stiffness);
 }
 
-// The hand feels the spring of the handle, so the forces on the bodies add up to it: the tool's inertia is nobody's.
-void LightCursor::write(const ToolInput& input, const Cursor& cursor, const Vec3& p_WT,
-                        BoundedList<ToolForce>& forces) noexcept {
-  const ToolCoupling& coupling = scene_.devices[input.tool].tool->coupling;
+bool LightCursor::list(const ToolCoupling& coupling, const Cursor& cursor, BoundedList<ToolForce>& forces) noexcept {
   std::fill(pressure_.begin(), pressure_.end(), 0.0);
   double sum = 0;
   for (const CursorContact& one : cursor.contacts()) {
     pressure_[one.solid] += one.force;
     sum += one.force;
   }
-  if (!(sum > 0)) return;
+  if (!(sum > 0)) return false;
   const double most = kMaxSqueeze * (coupling.max_force + coupling.max_torque / cursor.radius());
   const double stiffness = coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness);
   for (const CursorContact& one : cursor.contacts()) {
@@ -105,7 +117,17 @@ void LightCursor::write(const ToolInput& input, const Cursor& cursor, const Vec3
                 .friction_dynamic = friction_[one.solid].mu_dynamic,
                 .slips = cursor.sticking().slides(one)});
   }
-  balanceForces(forces, -cursor.ofHandle());
+  return true;
+}
+
+// The hand feels the spring of the handle, so the forces on the bodies add up to it: the tool's inertia is nobody's. Where
+// a jam comes free, so light a tool bounces for some ticks, while that spring is still tight; the bodies bear it on.
+void LightCursor::write(const ToolInput& input, Held& held, const Vec3& p_WT, BoundedList<ToolForce>& forces) noexcept {
+  const ToolCoupling& coupling = scene_.devices[input.tool].tool->coupling;
+  held.bounce = list(coupling, held.cursor, forces) ? 0 : std::min(kBounce, held.bounce + 1);
+  if (held.bounce == kBounce) return;
+  (held.bounce == 0 ? held.last : forces) = held.bounce == 0 ? forces : held.last;
+  balanceForces(forces, -(1 - static_cast<double>(held.bounce) / kBounce) * held.cursor.ofHandle());
   for (ToolForce& one : forces) one.p_W += p_WT;
 }
 

@@ -10,7 +10,9 @@ namespace {
 // distance, which has a direction; forces do not see it [m].
 constexpr double kAbove = 2e-4;
 constexpr double kMaxStep = 0.75 * kAbove;  // towards the handle
-constexpr double kRounding = 1e-7;          // added to the step [m]
+constexpr double kShortWay = 1e-7;             // a shorter way ends the passes [m]
+constexpr int kMaxPasses = 8;
+constexpr double kRounding = 1e-7;  // added to the step [m]
 
 }  // namespace
 
@@ -28,14 +30,20 @@ bool PairObjects::begin(const NearParts& pair, const Pose& X_WH, const Pose& X_W
   return true;
 }
 
+// A way is cut where its step would be larger than kMaxStep, and goes on in the next pass.
 bool PairObjects::moveTo(NearParts& pair, const Quat& q_WT, const Vec3& goal, Vec3& x, Vec3& nhat) noexcept {
-  const Vec3 way = goal - x, along = way - way.dot(nhat) * nhat;
-  const double step = std::min(kMaxStep, stepTowardsHandle(law_.curvature, along.norm()) + kRounding);
-  const Vec3 at = x + along - step * nhat;
-  pairs_.separate(pair, {at, q_WT}, 2 * kAbove);
-  if (pair.gap > kAbove) return false;
-  nhat = pair.nhat_W;
-  x = at + (kAbove - pair.gap) * nhat;
+  const double longest = std::sqrt(kMaxStep * std::max(0.0, 2 * law_.curvature - kMaxStep));
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const Vec3 way = goal - x, along = way - way.dot(nhat) * nhat;
+    const double length = along.norm(), d = std::min(length, longest);
+    const Vec3 at = x + (length > 0 ? Vec3(d / length * along) : Vec3::Zero()) -
+                    (stepTowardsHandle(law_.curvature, d) + kRounding) * nhat;
+    pairs_.separate(pair, {at, q_WT}, 2 * kAbove);
+    if (pair.gap > kAbove) return false;
+    nhat = pair.nhat_W;
+    x = at + (kAbove - pair.gap) * nhat;
+    if (d < kShortWay) break;
+  }
   return true;
 }
 

@@ -12,11 +12,11 @@
 namespace presa {
 namespace {
 
-constexpr std::size_t kFewVertices = 24;  // looked at one by one
+constexpr std::size_t kSearchedVertices = 24;  // looked at one by one
 constexpr int kMaxIterations = 64;
 constexpr double kConverged = 1e-8;  // what another support point would gain, in relation to the distance
 constexpr double kTouching = 1e-12;  // distance in relation to the coordinates
-constexpr double kFlat = 1e-12;      // volume of a tetrahedron without inside, in relation to its edges
+constexpr double kNoInside = 1e-12;      // volume of a tetrahedron without inside, in relation to its edges
 
 /// A point of B - A, and the points that it comes from.
 struct Vertex {
@@ -72,7 +72,7 @@ bool insideTetrahedron(const Simplex& s, Part& best) noexcept {
     const Vec3 &a = s.vertices[i].w, &b = s.vertices[j].w, &c = s.vertices[k].w, &d = s.vertices[opposite].w;
     const Vec3 normal = (b - a).cross(c - a);
     const double volume = (d - a).dot(normal), of_origin = -a.dot(normal);
-    const bool is_flat = std::abs(volume) <= kFlat * normal.norm() * (d - a).norm();
+    const bool is_flat = std::abs(volume) <= kNoInside * normal.norm() * (d - a).norm();
     if (!is_flat && of_origin * volume >= 0) continue;  // the origin is on the inner side
     inside = false;
     const Part face = ofTriangle(s, i, j, k);
@@ -116,7 +116,7 @@ Vertex supportAgainst(const PlacedSupport& A, const PlacedSupport& B, const Vec3
 }  // namespace
 
 SupportOf::SupportOf(Hull hull) : hull_(std::move(hull)) {
-  if (hull_.cylinder || hull_.vertices.size() <= kFewVertices) return;
+  if (hull_.cylinder || hull_.vertices.size() <= kSearchedVertices) return;
   first_.assign(hull_.vertices.size() + 1, 0);
   for (const Hull::Edge& edge : hull_.edges) {
     ++first_[index(edge.from) + 1];

@@ -261,8 +261,9 @@ void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3&
     clipAlong(B, A, -nhat_AB_W, margin, -1, out);
   }
   // faces that do not cover each other at the nearest points
-  if (gap <= margin && leastGap(out) > gap + kPrefer * std::min(sizeOf(A), sizeOf(B)))
-    setPoint(on_a, on_b, 0, 0, margin, nhat_AB_W, out);
+  if (gap > margin || leastGap(out) <= gap + kPrefer * std::min(sizeOf(A), sizeOf(B))) return;
+  out.count = std::min(out.count, Manifold::kMaxPoints - 1) + 1;
+  out.points[static_cast<std::size_t>(out.count) - 1] = {(on_a + on_b) / 2, gap};
 }
 
 // The best pair of edges.

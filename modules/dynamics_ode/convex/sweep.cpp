@@ -57,7 +57,7 @@ Sweep::Sweep(const BodySet& bodies)
     rims_[body] = std::max(rims_[body], shapes_[i].rim);
     edges = std::max(edges, hull.edges.size());
     faces = std::max(faces, hull.faces.size());
-    for (Hull& placed : placed_) presa::ode::place(hull, Pose(), placed);  // takes its memory
+    for (Hull& placed : placed_) presa::place(hull, Pose(), placed);  // takes its memory
   }
   maker_.makeRoom(edges, faces);
 }
@@ -105,8 +105,8 @@ Separation Sweep::separation(const BodySet& bodies, std::size_t A, std::size_t B
   const Pose X_A = geomPose(bodies, A, s), X_B = geomPose(bodies, B, s);
   std::array<CylinderTurn, 2> turns;
   const Hull &a = *shapes_[A].hull, &b = *shapes_[B].hull;
-  if (!a.cylinder) presa::ode::place(a, X_A, placed_[0]);
-  if (!b.cylinder) presa::ode::place(b, X_B, placed_[1]);
+  if (!a.cylinder) presa::place(a, X_A, placed_[0]);
+  if (!b.cylinder) presa::place(b, X_B, placed_[1]);
   const auto [facing_a, facing_b] = facing_.of({a, X_A, &placed_[0], &turns[0]}, {b, X_B, &placed_[1], &turns[1]});
   return maker_.separate(*facing_a, *facing_b);
 }

@@ -24,7 +24,7 @@ std::shared_ptr<const World> xfcaWorld(const std::string& tool, const std::strin
 }
 
 const char* const kBall = R"(<tool stiffness="1000"><sphere radius="0.01"/></tool>)";
-const char* const kBlock = R"(<tool stiffness="1000"><box size="0.04 0.03 0.02"/></tool>)";
+const char* const kBlock = R"(<tool stiffness="1000" max_force="100"><box size="0.04 0.03 0.02"/></tool>)";
 
 // Oracle: the spring of the handle alone, for the tool is held by a constraint. The skin of 2 um is not felt.
 TEST(Xfca, ABallIsPressedBackByTheSpringOfTheHandle) {
@@ -101,9 +101,8 @@ TEST(Xfca, ViscosityAddsAForceProportionalToSpeed) {
 // Oracle: statics. A ball in a groove of two walls at 45 degrees: each bears depth * k / (2 cos 45).
 TEST(Xfca, EachWallOfAGrooveBearsItsShare) {
   const auto wall = [](const std::string& name, int side) {
-    const double s = 0.05 / std::sqrt(2.0);
-    return "<body name=\"" + name + R"(" fixed="true" material="smooth" pos=")" + std::to_string(side * s) + " 0 " +
-           std::to_string(-s) + R"(" euler_deg="0 )" + std::to_string(-45 * side) +
+    return "<body name=\"" + name + R"(" fixed="true" material="smooth" pos=")" + (side < 0 ? "-" : "") +
+           "0.0353553390593 0 -0.0353553390593" + R"(" euler_deg="0 )" + std::to_string(-45 * side) +
            R"( 0"><haptic><box size="0.2 0.2 0.1"/></haptic></body>)";
   };
   OneTool tool(xfcaWorld(kBall, wall("left", -1) + wall("right", 1)));
@@ -144,7 +143,7 @@ TEST(Xfca, ASeamIsNotFelt) {
 }
 
 TEST(Xfca, AsPrintedTheToolFallsIntoTheGap) {
-  const auto [least, most] = forcesOverASeam(R"(<xfca printed="true"/>)");
+  const auto [least, most] = forcesOverASeam(R"(<xfca printed="true" curvature="0.002"/>)");
   EXPECT_GT(most, 0.9 * 500 * 0.008);
   EXPECT_LT(least, 0.2 * 500 * 0.008);
 }
@@ -173,7 +172,7 @@ TEST(Xfca, AsPrintedHoldsAConvexBody) {
 
 TEST(Xfca, AHandThatJumpsThroughAPlateLeavesTheToolBehind) {
   OneTool tool(xfcaWorld(
-      kBlock,
+      R"(<tool stiffness="1000"><box size="0.04 0.03 0.02"/></tool>)",
       R"(<body name="plate" fixed="true" material="smooth"><haptic><box size="0.4 0.4 0.0005"/></haptic></body>)"));
   tool.rest({{0, 0, 0.015}, Quat::Identity()}, 10);
   const FingerContact& contact = tool.rest({{0.05, 0.02, -0.3}, turned({1, 1, 0}, 30)}, 500);
@@ -211,6 +210,30 @@ TEST(Xfca, ACogIsDraggedOverACog) {
   EXPECT_GT(largest, 1);
   EXPECT_LT(largest, 8);
   EXPECT_LT(largest_step, 2) << "teeth snap past each other";
+}
+
+// Oracle: pressed straight down on a slope, a tool stays where the tangent of the slope is below static friction, 0.5.
+TEST(Xfca, StaysOnASlopeUpToTheAngleOfFriction) {
+  for (const double degrees : {24.0, 26.0, 27.2, 29.0}) {
+    const double a = degrees * EIGEN_PI / 180;
+    OneTool tool(xfcaWorld(kBlock, R"(<body name="slope" fixed="true" material="rough" euler_deg="0 )" +
+                                       std::to_string(degrees) +
+                                       R"( 0"><haptic><box size="0.4 0.4 0.1"/></haptic></body>)"));
+    const Quat lie = turned({0, 1, 0}, degrees);
+    const Vec3 up(std::sin(a), 0, std::cos(a));
+    tool.tick({0.07 * up, lie});
+    for (int i = 0; i <= 400; ++i) tool.tick({0.06 * up - Vec3(0, 0, 5e-6 * i), lie});
+    const Vec3 begin = tool.state().X_WT.p;
+    tool.rest({0.06 * up - Vec3(0, 0, 0.002), lie}, 100);
+    const Vec3 slid = tool.state().X_WT.p - 0.06 * up;
+    EXPECT_LT((tool.state().X_WT.p - begin).norm(), 1e-5) << degrees;
+    const double down = slid.dot(Vec3(std::cos(a), 0, -std::sin(a)));
+    if (std::tan(a) < 0.5) {
+      EXPECT_LT(down, 5e-5) << degrees;
+    } else {
+      EXPECT_GT(down, 0.1 * 0.002 * std::sin(a)) << degrees;
+    }
+  }
 }
 
 TEST(Xfca, GivesTheBodyTheOppositeOfWhatTheHandFeels) {
