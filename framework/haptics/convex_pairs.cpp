@@ -29,9 +29,9 @@ ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>
     : tool_(tool), bodies_(bodies), X_WB_(bodies.size()), near_(kMaxNear) {
   for (const ConvexSolid& body : bodies) {
     first_part_.push_back(bodies_in_W_.size());
-    for (const ConvexPart& part : body.parts) bodies_in_W_.push_back(part.support.hull());
+    for (const ConvexPart& part : body.parts) bodies_in_W_.push_back({part.support.hull()});
   }
-  for (const ConvexPart& part : tool.parts) tool_in_W_.push_back(part.support.hull());
+  for (const ConvexPart& part : tool.parts) tool_in_W_.push_back({part.support.hull()});
   centres_W_.resize(bodies_in_W_.size());
   memories_.resize(bodies_in_W_.size() * tool.parts.size());
   // the stand-ins of cylinders take their memory
@@ -43,6 +43,8 @@ ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>
 }
 
 void ConvexPairs::place(const Touchables& touchables) noexcept {
+  ++poses_;
+  separated_ = -1;
   for (std::size_t s = 0; s < bodies_.size(); ++s) {
     X_WB_[s] = touchables.frameOf(bodies_[s].body);
     for (std::size_t p = 0; p < bodies_[s].parts.size(); ++p)
@@ -52,6 +54,7 @@ void ConvexPairs::place(const Touchables& touchables) noexcept {
 
 bool ConvexPairs::gather(const Pose& X_WT, double reach) noexcept {
   near_.clear();
+  separated_ = -1;
   for (std::size_t t = 0; t < tool_.parts.size(); ++t) {
     const Vec3 centre_W = X_WT * tool_.parts[t].centre_A;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
@@ -92,11 +95,29 @@ PlacedSupport ConvexPairs::placedTool(const NearParts& pair) const noexcept {
 }
 
 void ConvexPairs::separate(const Pose& X_WT, double beyond) noexcept {
+  const bool is_known = beyond <= separated_ && X_WT.p == X_WT_.p && X_WT.q.coeffs() == X_WT_.q.coeffs();
+  if (is_known) return;
   for (NearParts& pair : near_) separate(pair, X_WT, beyond);
+  separated_ = beyond;
+}
+
+void ConvexPairs::follow(const Vec3& step, double within) noexcept {
+  const Pose moved{X_WT_.p + step, X_WT_.q};
+  const double range = separated_;
+  for (NearParts& pair : near_) {
+    pair.gap += pair.nhat_W.dot(step);
+    pair.on_tool_W += step;
+    if (pair.gap <= within) separate(pair, moved, within);
+  }
+  X_WT_ = moved;
+  ++poses_;
+  separated_ = range;
 }
 
 void ConvexPairs::separate(NearParts& pair, const Pose& X_WT, double beyond) noexcept {
   X_WT_ = X_WT;
+  ++poses_;
+  separated_ = -1;
   const PlacedSupport body = placedBody(pair), tool = placedTool(pair);
   DistanceMemory& memory = memoryOf(pair).distance;
   const ConvexDistance found = distance(body, tool, beyond, memory);
@@ -113,13 +134,16 @@ void ConvexPairs::touch(const NearParts& pair, double margin, Manifold& out) noe
   const PlacedSupport body = placedBody(pair), tool = placedTool(pair);
   const Pose X_body{body.p, X_WB_[pair.solid].q * bodies_[pair.solid].parts[pair.part].X_AP.q},
       X_tool{tool.p, X_WT_.q * tool_.parts[pair.tool_part].X_AP.q};
-  Hull& of_body = bodies_in_W_[first_part_[pair.solid] + pair.part];
-  Hull& of_tool = tool_in_W_[pair.tool_part];
   const Hull &body_hull = body.support.hull(), &tool_hull = tool.support.hull();
-  presa::place(body_hull, X_body, of_body);
-  presa::place(tool_hull, X_tool, of_tool);
+  const auto placed = [&](InWorld& in_W, const Hull& hull, const Pose& X) {
+    if (in_W.pose != poses_) presa::place(hull, X, in_W.hull);
+    in_W.pose = poses_;
+    return &in_W.hull;
+  };
+  const Hull *of_body = placed(bodies_in_W_[first_part_[pair.solid] + pair.part], body_hull, X_body),
+             *of_tool = placed(tool_in_W_[pair.tool_part], tool_hull, X_tool);
   std::array<CylinderTurn, 2>& turns = memoryOf(pair).turns;
-  const auto [a, b] = facing_.of({body_hull, X_body, &of_body, &turns[0]}, {tool_hull, X_tool, &of_tool, &turns[1]});
+  const auto [a, b] = facing_.of({body_hull, X_body, of_body, &turns[0]}, {tool_hull, X_tool, of_tool, &turns[1]});
   touchAlong(*a, *b, pair.nhat_W, pair.on_body_W - X_WT_.p, pair.on_tool_W - X_WT_.p, margin, out);
   for (int i = 0; i < out.count; ++i) out.points[static_cast<std::size_t>(i)].p_W += X_WT_.p;
 }

@@ -40,7 +40,10 @@ class ConvexPairs {
   /// Finds the planes of the pairs listed, for a tool at X_WT. Of those farther apart than `beyond` [m] only a plane and a
   /// lower bound of the gap.
   void separate(const Pose& X_WT, double beyond) noexcept;
-  /// The same of one pair, listed or a copy; touch() is for those of near() only.
+  /// The tool moves on by `step` without turning: finds the planes of pairs whose gap is then up to `within` [m] anew, and
+  /// keeps those of the others, which it cannot have crossed.
+  void follow(const Vec3& step, double within) noexcept;
+  /// The same as separate() of one pair, listed or a copy; touch() is for those of near() only.
   void separate(NearParts& pair, const Pose& X_WT, double beyond) noexcept;
   const BoundedList<NearParts>& near() const noexcept { return near_; }  ///< at the last separate()
   /// The points, up to eight, at which a pair comes within `margin` [m] along its plane, as at the last separate().
@@ -59,17 +62,24 @@ class ConvexPairs {
     std::array<CylinderTurn, 2> turns;  // of body and tool
   };
   Memory& memoryOf(const NearParts& pair) noexcept { return memories_[indexOf(pair)]; }
+  /// The hull of a part as the contact of two hulls wants it, found once for each pose.
+  struct InWorld {
+    Hull hull;
+    std::uint64_t pose = 0;  // number of the pose, below
+  };
   PlacedSupport placedBody(const NearParts& pair) const noexcept;
   PlacedSupport placedTool(const NearParts& pair) const noexcept;
 
   const ConvexSolid& tool_;
   const std::vector<ConvexSolid>& bodies_;
-  std::vector<Pose> X_WB_;                     // by solid
-  std::vector<std::size_t> first_part_;        // by solid: index of its first part among all
-  std::vector<Vec3> centres_W_;                // by part of all bodies
-  std::vector<Memory> memories_;               // by part of all bodies, and by part of the tool
-  std::vector<Hull> bodies_in_W_, tool_in_W_;  // by part: room for touch()
-  Pose X_WT_;                                  // at the last separate()
+  std::vector<Pose> X_WB_;                        // by solid
+  std::vector<std::size_t> first_part_;           // by solid: index of its first part among all
+  std::vector<Vec3> centres_W_;                   // by part of all bodies
+  std::vector<Memory> memories_;                  // by part of all bodies, and by part of the tool
+  std::vector<InWorld> bodies_in_W_, tool_in_W_;  // by part, from the tool's origin
+  std::uint64_t poses_ = 0;                       // number of poses of the tool so far
+  Pose X_WT_;                                     // at the last separate()
+  double separated_ = -1;  // range of the planes of near_ at X_WT_ [m]; below zero: not found yet
   BoundedList<NearParts> near_;
   FacingHulls facing_;
 };

@@ -15,6 +15,7 @@ namespace {
 constexpr double kConvex = 1e-5;  // of the mesh's size: as isConvex
 
 ConvexPart partOf(Hull hull, const Pose& X_AP) {
+  hull.directions.clear();  // of the separating axis test alone; they would be turned in every tick
   ConvexPart part{.support = SupportOf(std::move(hull)), .X_AP = X_AP};
   const Hull& own = part.support.hull();
   part.centre_A = X_AP * own.centre;

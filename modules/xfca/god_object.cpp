@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kPasses = 10;
 constexpr double kStill = 1e-8;  // a pass that moves less ends the slide [m]
+constexpr double kNearby = 2;    // planes within so many steps are found anew, the others hold as they are
 
 }  // namespace
 
@@ -25,14 +26,13 @@ HalfSpaces GodObject::planesWithin(double within, double skin) const noexcept {
 }
 
 bool GodObject::slide(const Quat& q_WT, const Vec3& goal, Vec3& x) noexcept {
+  pairs_.separate({x, q_WT}, 2 * (goal - x).norm() + kSkin);
   for (int pass = 0; pass < kPasses; ++pass) {
-    const double within = 2 * (goal - x).norm() + kSkin;
-    pairs_.separate({x, q_WT}, within);
-    const Vec3 step = nearestFeasible(planesWithin(within, kSkin), goal - x).y;
+    const Vec3 step = nearestFeasible(planesWithin(2 * (goal - x).norm() + kSkin, kSkin), goal - x).y;
     if (step.norm() <= kStill) return true;
     x += step;
+    pairs_.follow(step, kSkin + kNearby * step.norm());
   }
-  pairs_.separate({x, q_WT}, 2 * (goal - x).norm() + kSkin);
   return false;
 }
 

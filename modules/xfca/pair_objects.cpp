@@ -10,7 +10,7 @@ namespace {
 // distance, which has a direction; forces do not see it [m].
 constexpr double kAbove = 2e-4;
 constexpr double kMaxStep = 0.75 * kAbove;  // towards the handle
-constexpr double kShortWay = 1e-7;             // a shorter way ends the passes [m]
+constexpr double kShortWay = 1e-7;          // a shorter way ends the passes [m]
 constexpr int kMaxPasses = 8;
 constexpr double kRounding = 1e-7;  // added to the step [m]
 

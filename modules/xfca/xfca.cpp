@@ -15,6 +15,9 @@
 namespace presa {
 namespace {
 
+// range of the planes of a tick: of the way from god-object to handle, and where that is short [m]
+constexpr double kRange = 3, kRangeAtRest = 1e-4;
+
 /// One tool of the scene.
 struct Held {
   Held(const ConvexSolid& solid, const std::vector<ConvexSolid>& bodies) : pairs(solid, bodies) {}
@@ -129,7 +132,7 @@ void Xfca::touch(const ToolInput& input, BoundedList<ToolForce>& forces, ToolSta
 
   const Vec3& handle = input.X_WH.p;
   Vec3 god = state.alive ? input.touchables.frameOf(held.frame) * held.p_A : handle;
-  const bool whole = held.pairs.gather({god, input.X_WH.q}, 3 * (handle - god).norm() + 2 * GodObject::kSkin);
+  const bool whole = held.pairs.gather({god, input.X_WH.q}, kRange * (handle - god).norm() + kRangeAtRest);
   held.frame = kNoBody;
   const Contact contact = settle(input, held, god);
   state.coarse += whole && held.places->all().lost() == 0 ? 0 : 1;
@@ -143,6 +146,8 @@ Xfca::Contact Xfca::settle(const ToolInput& input, Held& held, Vec3& god) const 
   const Quat& q = input.X_WH.q;
   const Vec3& handle = input.X_WH.p;
   Contact contact;
+  // all planes once, as far as any of the motions below can want them
+  held.pairs.separate({god, q}, kRange * (handle - god).norm() + kRangeAtRest);
   // turned with the handle, and where bodies move against each other, it may have to give way first
   contact.arrived = held.god_object.slide(q, god, god);
   Vec3 surface = god;
@@ -159,7 +164,10 @@ Xfca::Contact Xfca::settle(const ToolInput& input, Held& held, Vec3& god) const 
   contact.friction = frictionAt(held.places->all());
   const Vec3 held_at = heldByFriction(surface, god, contact.push.shift.norm(), contact.friction,
                                       fraction(held.coupling, input.period), held.slipping);
-  if (held.slipping) contact.arrived = held.god_object.slide(q, handle + held_at - surface, god) && contact.arrived;
+  if (held.slipping) {
+    god = surface;
+    contact.arrived = held.god_object.slide(q, handle + held_at - surface, god) && contact.arrived;
+  }
   contact.lag = god - surface;
   return contact;
 }
