@@ -34,12 +34,14 @@ class CylinderStandIn {
 /// Two hulls in W as they face each other, with stand-ins for cylinders. Keeps its memory from call to call.
 class FacingHulls {
  public:
+  /// One of the two.
   struct Side {
-    const Hull& hull;  ///< in its own frame
-    Pose X_WH;
+    const Hull& hull;    ///< in its own frame
+    Pose X_WH;           ///< of that frame
     const Hull* placed;  ///< the hull in W; not read of a cylinder
     CylinderTurn* turn;  ///< read and written for a cylinder
   };
+  /// In W; valid until the next call.
   std::pair<const Hull*, const Hull*> of(const Side& A, const Side& B);
 
  private:

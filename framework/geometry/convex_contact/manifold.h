@@ -10,25 +10,28 @@ namespace presa {
 /// The contact of two hulls: one normal, and points that span the touching area. Eight, because two rectangles meet in
 /// at most so many corners: with fewer the choice among them would change from step to step.
 struct Manifold {
-  static constexpr int kMaxPoints = 8;
+  static constexpr int kMaxPoints = 8;  ///< see above
+  /// A point of contact.
   struct Point {
     Vec3 p_W = Vec3::Zero();  ///< halfway between the surfaces
     double gap = 0;           ///< along the normal; negative: overlap [m]
   };
-  Vec3 nhat_AB_W = Vec3::UnitZ();
-  std::array<Point, kMaxPoints> points;
-  int count = 0;
+  Vec3 nhat_AB_W = Vec3::UnitZ();        ///< unit, from A into B
+  std::array<Point, kMaxPoints> points;  ///< the first `count` are set
+  int count = 0;                         ///< 0: they are farther apart than was asked for
 };
 
 /// The direction in which two hulls are apart most, or overlap least.
 struct Separation {
-  Vec3 nhat_AB_W = Vec3::UnitZ();
-  double gap = 0;  ///< negative: overlap [m]
+  Vec3 nhat_AB_W = Vec3::UnitZ();  ///< unit, from A into B
+  double gap = 0;                  ///< negative: overlap [m]
 };
 
 /// What a contact's normal comes from.
 struct ContactAxis {
-  enum class Kind : std::uint8_t { kNone, kFaceOfA, kFaceOfB, kEdges } kind = Kind::kNone;
+  /// A face of one of the hulls, or an edge of each.
+  enum class Kind : std::uint8_t { kNone, kFaceOfA, kFaceOfB, kEdges };
+  Kind kind = Kind::kNone;    ///< kNone: there was no contact
   std::int32_t a = 0, b = 0;  ///< indices of faces or edges
 };
 
@@ -39,7 +42,7 @@ void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3&
 
 /// Makes the contact of two hulls by the separating axis test: the normal is that of the face, or square to the pair of
 /// edges, along which they are separated most (overlap least); the points are the corners of the area in which the two
-/// faces along it cover each other [Gregorius2013].
+/// faces along it cover each other [Gregorius2013]. Thread: one at a time.
 class ManifoldMaker {
  public:
   /// Reserves memory for hulls of up to so many `edges` and `faces`; more allocate once.
