@@ -40,7 +40,8 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     incline) args+=(--screenshot-at 2) ;; # the ice has slid, the felt has not
     magnet) args+=(--screenshot-at 1.7) ;;
     cog) args+=(--screenshot-at 5) ;;
-    peg_in_hole | square_peg) args+=(--screenshot-at 9.3) ;; # it leans in its hole
+    peg_in_hole) args+=(--screenshot-at 9.3) ;; # it leans in its hole
+    square_peg) args+=(--screenshot-at 9.3 --camera "0.13,-0.19,0.15:0,0,0.03") ;;
     stylus_on_bunny) args+=(--screenshot-at 12) ;;
     moving_wall) args+=(--screenshot-at 0.25) ;;
     knocks) args+=(--screenshot-at 2.92) ;; # on the stone
