@@ -75,6 +75,9 @@ class Device {
   virtual std::vector<PhaseIntent> phaseIntents() const { return {}; }
   /// Viscous damping b of device plus hand for the stiffness bound K <= (b + B) / ((d + 1/2) T) [N s/m]; 0: unknown.
   virtual double damping() const { return 0; }
+  /// The same for turning, of a device that renders torques: K <= b / ((d + 1/2) T) [N m s/rad]; 0: unknown, or the
+  /// orientation does not yield to torque.
+  virtual double turnDamping() const { return 0; }
   /// Mass m that the force moves, of device plus hand or less, for the damping bound B < 2 m / T [kg]; 0: unknown.
   virtual double mass() const { return 0; }
   /// Notes for the user, shown at start ("finger damping raised to 10 N s/m for 10 N/mm").

@@ -28,6 +28,7 @@ class WrappedDevice : public Device {
   std::vector<double> phaseTimes() const override { return device_->phaseTimes(); }
   std::vector<PhaseIntent> phaseIntents() const override { return device_->phaseIntents(); }
   double damping() const override { return device_->damping(); }
+  double turnDamping() const override { return device_->turnDamping(); }
   double mass() const override { return device_->mass(); }
   std::vector<std::string> notes() const override { return device_->notes(); }
 

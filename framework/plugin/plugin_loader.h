@@ -7,7 +7,7 @@ namespace presa {
 /// Version of the tables that plug-ins return. Whatever else a plug-in compiles against is in the hash of the installed
 /// headers, which the build puts into every plug-in (PresaInterface.cmake): one of another hash is refused before any
 /// of its code is called (E510).
-inline constexpr int kPluginAbi = 28;
+inline constexpr int kPluginAbi = 29;
 
 /// Address of the C symbol `symbol` in the plug-in `presa_<name>.so`. The plug-in is looked for in the folders of the
 /// environment variable PRESA_PLUGIN_PATH (separated by colons), then beside the framework library; it is loaded at the

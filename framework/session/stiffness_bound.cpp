@@ -26,13 +26,22 @@ bool touchable(const Scene& scene, std::size_t material) {
   return false;
 }
 
-std::string inWords(const std::string& what, double stiffness, double allowed, const StiffnessBound& bound) {
+/// How stiffnesses are written.
+struct Units {
+  const char *stiffness, *damping;
+  double scale;  // of the number that is shown
+};
+constexpr Units kOfForce{"N/mm", "N s/m", 1e-3}, kOfTorque{"N m/rad", "N m s/rad", 1};
+
+std::string inWords(const std::string& what, double stiffness, double allowed, const StiffnessBound& bound,
+                    const Units& units) {
   std::array<char, 320> text;
   std::snprintf(text.data(), text.size(),
-                "%s of %.4g N/mm is felt with %.4g N/mm: half of K_max = b / ((d + 1/2) T) = %.4g N/mm, with the "
-                "b = %.3g N s/m of '%s', d = %d and T = %.3g ms",
-                what.c_str(), stiffness * 1e-3, allowed * 1e-3, bound.stiffness * 1e-3, bound.damping,
-                bound.role.c_str(), bound.delay, bound.period * 1e3);
+                "%s of %.4g %s is felt with %.4g %s: half of K_max = b / ((d + 1/2) T) = %.4g %s, with the "
+                "b = %.3g %s of '%s', d = %d and T = %.3g ms",
+                what.c_str(), stiffness * units.scale, units.stiffness, allowed * units.scale, units.stiffness,
+                bound.stiffness * units.scale, units.stiffness, bound.damping, units.damping, bound.role.c_str(),
+                bound.delay, bound.period * 1e3);
   return text.data();
 }
 
@@ -75,11 +84,16 @@ double seenThroughZoom(const Plan& plan, std::size_t f, double value) {
 
 }  // namespace
 
-StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
+namespace {
+
+/// `damping_of`: of a device, 0: unknown.
+template <class DampingOf>
+StiffnessBound smallestBound(const DeviceList& devices, const Plan& plan, const Scene& scene,
+                             const DampingOf& damping_of) {
   StiffnessBound min;
   const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
   for (std::size_t f = 0; f < devices.size(); ++f) {
-    const double damping = seenThroughZoom(plan, f, devices[f]->damping());
+    const double damping = damping_of(f);
     if (!(damping > 0)) continue;
     const int delay = delayOf(plan, f);
     const double stiffness = damping / ((delay + 0.5) * period);
@@ -89,32 +103,66 @@ StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const
   return min;
 }
 
-std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics) {
-  std::vector<Override> lowered;
-  if (!(bound.stiffness > 0)) return lowered;
-  const double allowed = kStableShare * bound.stiffness;
-  const auto lower = [&](const std::string& what, double stiffness, const SourceLocation& where, std::string path) {
-    if (stiffness <= allowed * (1 + kAllowedRounding)) return;
-    diagnostics.warning(kStiffnessBound, where, inWords(what, stiffness, allowed, bound),
-                        "more damping of hand or device, or a higher haptic rate, allows more");
+/// Lowers stiffnesses to the share of a bound that is stable.
+class Lowering {
+ public:
+  Lowering(const StiffnessBound& bound, const Units& units, Diagnostics& diagnostics)
+      : bound_(bound), units_(units), diagnostics_(diagnostics) {}
+
+  void lower(const std::string& what, double stiffness, const SourceLocation& where, std::string path,
+             std::vector<Override>& lowered) const {
+    const double allowed = kStableShare * bound_.stiffness;
+    if (!(allowed > 0) || stiffness <= allowed * (1 + kAllowedRounding)) return;
+    diagnostics_.warning(kStiffnessBound, where, inWords(what, stiffness, allowed, bound_, units_),
+                         "more damping of hand or device, or a higher haptic rate, allows more");
     lowered.push_back({std::move(path), exactly(allowed)});
-  };
+  }
+
+ private:
+  const StiffnessBound& bound_;
+  const Units& units_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
+  return smallestBound(devices, plan, scene,
+                       [&](std::size_t f) { return seenThroughZoom(plan, f, devices[f]->damping()); });
+}
+
+// A zoom scales lengths, not angles.
+StiffnessBound turnStiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
+  return smallestBound(devices, plan, scene, [&](std::size_t f) { return devices[f]->turnDamping(); });
+}
+
+std::vector<Override> boundedHandles(const Scene& scene, const StiffnessBound& bound, const StiffnessBound& turning,
+                                     Diagnostics& diagnostics) {
+  std::vector<Override> lowered;
+  const Lowering of_force(bound, kOfForce, diagnostics), of_torque(turning, kOfTorque, diagnostics);
   for (const DeviceRole& role : scene.devices) {
     if (!role.tool) continue;
-    lower("the handle of tool '" + role.role + "'", role.tool->coupling.stiffness, role.where,
-          "device/" + role.role + "/tool/stiffness");
+    const std::string name = "the handle of tool '" + role.role + "'", path = "device/" + role.role + "/tool/";
+    of_force.lower(name, role.tool->coupling.stiffness, role.where, path + "stiffness", lowered);
+    of_torque.lower("turning " + name, role.tool->coupling.turn_stiffness, role.where, path + "turn_stiffness",
+                    lowered);
   }
-  // a tool feels the spring of its handle, whatever it touches
+  return lowered;
+}
+
+std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics) {
+  std::vector<Override> lowered;
+  const Lowering lowering(bound, kOfForce, diagnostics);
   for (std::size_t m = 0; m < scene.materials.size() && scene.hasFingertips(); ++m) {
     const Material& material = scene.materials[m];
     if (!touchable(scene, m)) continue;
     const std::string name = "material '" + material.name + "'", path = "material/" + material.name;
-    lower(name, material.stiffness, material.where, path + "/stiffness");
+    lowering.lower(name, material.stiffness, material.where, path + "/stiffness", lowered);
     const PluginElement* law = frictionElementOf(scene, m);
     if (law == nullptr) continue;
     for (const std::string& attribute : stiffnessesOf(*law)) {
-      lower("<" + law->element + " " + attribute + "> of " + name, law->number(attribute), law->where,
-            path + "/friction/" + law->element + "/" + attribute);
+      lowering.lower("<" + law->element + " " + attribute + "> of " + name, law->number(attribute), law->where,
+                     path + "/friction/" + law->element + "/" + attribute, lowered);
     }
   }
   return lowered;

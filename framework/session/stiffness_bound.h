@@ -13,12 +13,14 @@ namespace presa {
 struct StiffnessBound {
   double stiffness =
       0;  ///< K_max of the device with the smallest bound [N/m]; 0: unknown, because no device declares a damping
-  double damping = 0;  ///< its b [N s/m]
+  double damping = 0;  ///< its b [N s/m]; of turning all in N m, rad
   int delay = 0;       ///< its d: 0 for a model, 1 for hardware, where a command acts one cycle later
   double period = 0;   ///< T [s]
   std::string role;    ///< its role
 };
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
+/// The same for turning against a torque (Device::turnDamping) [N m/rad, N m s/rad].
+StiffnessBound turnStiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
 
 /// Share of K_max that a material may have: disturbances then die out, even if the hand lets go.
 inline constexpr double kStableShare = 0.5;
@@ -39,9 +41,13 @@ DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Sce
 /// out without changing its sign from tick to tick. One warning W464 for each, with the bound.
 std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bound, Diagnostics& diagnostics);
 
-/// Overrides that lower the stiffness of each touchable material, and those of its friction law (attributes in N/m), and
-/// of the handle of each tool, to kStableShare of the bound; empty: none is above. One warning W454 for each, with the
-/// bound.
+/// Overrides that lower the stiffness of the handle of each tool, in force and in turning, to kStableShare of the bounds;
+/// empty: none is above. One warning W454 for each, with the bound.
+std::vector<Override> boundedHandles(const Scene& scene, const StiffnessBound& bound, const StiffnessBound& turning,
+                                     Diagnostics& diagnostics);
+
+/// The same for each touchable material, and its friction law (attributes in N/m); none where all devices hold tools,
+/// which feel the spring of their handles, whatever they touch.
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics);
 
 }  // namespace presa

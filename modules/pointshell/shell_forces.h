@@ -1,5 +1,6 @@
 #pragma once
 #include "framework/core/exchange/bounded_list.h"
+#include "framework/haptics/gathered_forces.h"
 #include "framework/haptics/tool_renderer.h"
 #include "modules/pointshell/shell_contact.h"
 
@@ -10,9 +11,7 @@ namespace presa {
 /// still feels a smooth force, and the bodies its opposite. Thread: haptic; nonblocking.
 class ShellForces {
  public:
-  /// On one tool: an octant of its contact with a body, of up to kMaxBodies bodies, has a force of its own, so that the
-  /// body feels a torque against tilting.
-  static constexpr std::size_t kMaxBodies = 8, kMax = 8 * kMaxBodies;
+  static constexpr std::size_t kMax = GatheredForces::kMax;  ///< on one tool
 
   /// False: the tool touches more bodies; the others bear their share.
   /// `stiffness`: of handle, tool and contact in series [N/m]. `wrench_T`: of all contacts on the tool, about its origin.

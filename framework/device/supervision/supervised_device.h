@@ -34,6 +34,7 @@ class SupervisedDevice final : public Device {
   std::vector<DeviceFact> facts() const override { return driver_->facts(); }
   bool measuresOrientation() const override { return driver_->measuresOrientation(); }
   double damping() const override { return driver_->damping(); }
+  double turnDamping() const override { return driver_->turnDamping(); }
   double mass() const override { return driver_->mass(); }
   std::vector<std::string> notes() const override { return notes_; }
 

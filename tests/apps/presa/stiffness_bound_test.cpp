@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "framework/device/wrapped_device.h"
+#include "framework/session/stiffness_bound.h"
 #include "tests/apps/presa/support.h"
 
 namespace presa::test {
@@ -66,6 +68,34 @@ TEST(StiffnessBound, ARecordingHoldsWhatWasFelt) {
   EXPECT_NE(run.err.find("W454"), std::string::npos) << run.err;
   const Outcome again = presa("replay --verify " + recording);
   EXPECT_EQ(again.status, 0) << again.out << again.err;
+}
+
+/// A device whose handle yields to torque.
+class TurningHandle final : public WrappedDevice {
+ public:
+  using WrappedDevice::WrappedDevice;
+  double turnDamping() const override { return 0.001; }
+};
+
+// K_max of 0.001 N m s/rad and half of 1 ms is 2 N m/rad, in force the scripted hand's own.
+TEST(StiffnessBound, HandlesOfToolsAreHeldToItInForceAndInTurning) {
+  Diagnostics diagnostics;
+  Loaded loaded = loadWorld({source("config/scenes/square_peg.xml"), "", {}}, {}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  const Scene& scene = loaded.world->scene;
+  EXPECT_TRUE(boundedHandles(scene, stiffnessBound(loaded.devices, loaded.plan, scene),
+                             turnStiffnessBound(loaded.devices, loaded.plan, scene), diagnostics)
+                  .empty());
+  loaded.devices[0] = std::make_unique<TurningHandle>(std::move(loaded.devices[0]));
+  const StiffnessBound turning = turnStiffnessBound(loaded.devices, loaded.plan, scene);
+  EXPECT_NEAR(turning.stiffness, 2, 1e-12);
+  const auto lowered = boundedHandles(scene, {}, turning, diagnostics);
+  ASSERT_EQ(lowered.size(), 1U);
+  EXPECT_EQ(lowered[0].path, "device/peg/tool/turn_stiffness");
+  EXPECT_EQ(std::stod(lowered[0].value), 1);
+  EXPECT_NE(diagnostics.text().find("turning the handle of tool 'peg' of 2 N m/rad is felt with 1 N m/rad"),
+            std::string::npos)
+      << diagnostics.text();
 }
 
 double dampingOf(const std::string& rig, const std::vector<std::string>& sets, bool bounded, Diagnostics& diagnostics) {

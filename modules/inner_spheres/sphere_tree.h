@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "framework/geometry/sphere_packing.h"
+
+namespace presa {
+
+/// A hierarchy of spheres around inner spheres. Immutable after construction.
+class SphereTree {
+ public:
+  /// A sphere around others, or an inner sphere, in the coordinates of the solid.
+  struct Node {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0;
+    std::int32_t children = -1;  ///< index of the first of two; -1: an inner sphere
+  };
+  /// Needs at least one sphere.
+  explicit SphereTree(std::vector<InnerSphere> spheres);
+
+  const std::vector<Node>& nodes() const noexcept { return nodes_; }  ///< the first is the root
+  std::size_t sphereCount() const noexcept { return (nodes_.size() + 1) / 2; }
+  double volume() const noexcept { return volume_; }  ///< of all inner spheres [m^3]
+
+ private:
+  void build(std::vector<InnerSphere>& spheres, std::size_t begin, std::size_t end, std::size_t node);
+
+  std::vector<Node> nodes_;
+  double volume_ = 0;
+};
+
+}  // namespace presa
