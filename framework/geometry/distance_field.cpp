@@ -27,13 +27,9 @@ Vec3 DistanceField::gradient(const Vec3& p) const noexcept {
 }
 
 Eigen::Vector3f DistanceField::slopeInVoxels(double x, double y, double z) const noexcept {
-  if (!(x >= 0 && y >= 0 && z >= 0 && x <= last_[0] && y <= last_[1] && z <= last_[2])) return Eigen::Vector3f::Zero();
-  const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
-  const auto block = static_cast<std::size_t>((i / kBlock) + blocks_[0] * ((j / kBlock) + blocks_[1] * (k / kBlock)));
-  if (stored_[block] == kCoarse) return Eigen::Vector3f::Zero();
-  const float* s = samples_.data() + static_cast<std::size_t>(stored_[block]) * kSamples + (i % kBlock) +
-                   kSide * ((j % kBlock) + kSide * (k % kBlock));
-  const auto u = static_cast<float>(x - i), v = static_cast<float>(y - j), w = static_cast<float>(z - k);
+  const float* s = isInside(x, y, z) ? cellAt(x, y, z) : nullptr;
+  if (s == nullptr) return Eigen::Vector3f::Zero();
+  const float u = fraction(x), v = fraction(y), w = fraction(z);
   const auto mix = [](float t, float a, float b) { return a + t * (b - a); };
   const int row = kSide, layer = kSide * kSide;
   const auto rise = [&](int at, int step) { return s[at + step] - s[at]; };

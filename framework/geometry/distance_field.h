@@ -74,6 +74,7 @@ class DistanceField {
   static std::optional<DistanceField> fromBytes(const std::string& bytes);
 
  private:
+  friend class FieldSweep;
   static constexpr int kSide = kBlock + 1;  // samples along the edge of a block: its last are its neighbour's first
   static constexpr std::size_t kSamples = std::size_t{kSide} * kSide * kSide;
   static constexpr std::int32_t kCoarse = -1;
@@ -90,6 +91,21 @@ class DistanceField {
            static_cast<std::size_t>(blocks_[2]);
   }
   // all in voxels, from the grid's origin
+  bool isInside(double x, double y, double z) const noexcept {
+    return x >= 0 && y >= 0 && z >= 0 && x <= last_[0] && y <= last_[1] && z <= last_[2];
+  }
+  // The first sample of a cell: its place within a block, whose place in the grid is i, j, k. Null: not stored.
+  const float* cellIn(int i, int j, int k, int in_block) const noexcept {
+    const std::int32_t stored = stored_[static_cast<std::size_t>(i + blocks_[0] * (j + blocks_[1] * k))];
+    if (stored == kCoarse) return nullptr;
+    return samples_.data() + static_cast<std::size_t>(stored) * kSamples + in_block;
+  }
+  // Of the cell around a place inside of the grid.
+  const float* cellAt(double x, double y, double z) const noexcept {
+    const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
+    return cellIn(i / kBlock, j / kBlock, k / kBlock, (i % kBlock) + kSide * ((j % kBlock) + kSide * (k % kBlock)));
+  }
+  static float fraction(double x) noexcept { return static_cast<float>(x - static_cast<int>(x)); }
   float coarseAt(double x, double y, double z) const noexcept;
   float beyond(double x, double y, double z) const noexcept;
   static float trilinear(const float* s, int row, int layer, float u, float v, float w) noexcept {
@@ -110,15 +126,10 @@ class DistanceField {
 };
 
 inline float DistanceField::inVoxels(double x, double y, double z) const noexcept {
-  if (!(x >= 0 && y >= 0 && z >= 0 && x <= last_[0] && y <= last_[1] && z <= last_[2])) return beyond(x, y, z);
-  const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
-  const auto block = static_cast<std::size_t>((i / kBlock) + blocks_[0] * ((j / kBlock) + blocks_[1] * (k / kBlock)));
-  const std::int32_t stored = stored_[block];
-  if (stored == kCoarse) return coarseAt(x, y, z);
-  const int in_block = (i % kBlock) + kSide * ((j % kBlock) + kSide * (k % kBlock));
-  const float* s = samples_.data() + static_cast<std::size_t>(stored) * kSamples + in_block;
-  return trilinear(s, kSide, kSide * kSide, static_cast<float>(x - i), static_cast<float>(y - j),
-                   static_cast<float>(z - k));
+  if (!isInside(x, y, z)) return beyond(x, y, z);
+  const float* cell = cellAt(x, y, z);
+  if (cell == nullptr) return coarseAt(x, y, z);
+  return trilinear(cell, kSide, kSide * kSide, fraction(x), fraction(y), fraction(z));
 }
 
 }  // namespace presa

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "framework/geometry/distance_field.h"
+#include "framework/geometry/field_sweep.h"
 #include "framework/geometry/mesh_distance.h"
 #include "framework/geometry/point_shell.h"
 #include "framework/haptics/renderers.h"
@@ -29,22 +31,53 @@ DistanceField fieldOf(const TriMesh& mesh, double voxel) {
                                {.voxel = voxel});
 }
 
-// Transform, lookup and sum for every point of a shell that lies on the field's surface.
+using F4 = float __attribute__((vector_size(16)));
+
+F4 fourAt(const FieldSweep::Row& row, std::size_t i) {
+  F4 four;
+  std::memcpy(&four, &row[i], sizeof four);
+  return four;
+}
+
+/// Sums for points with the force depth times gradient, four at once.
+struct Wrenches {
+  F4 depth{}, fx{}, fy{}, fz{}, tx{}, ty{}, tz{};
+
+  void add(const FieldSweep& sweep, std::size_t i) {
+    const F4 distance = fourAt(sweep.distance, i), zero{};
+    const F4 deep = distance < zero ? -distance : zero;
+    const F4 x = fourAt(sweep.placed[0], i), y = fourAt(sweep.placed[1], i), z = fourAt(sweep.placed[2], i);
+    const F4 f = deep * fourAt(sweep.slope[0], i), g = deep * fourAt(sweep.slope[1], i),
+             h = deep * fourAt(sweep.slope[2], i);
+    depth += deep;
+    fx += f;
+    fy += g;
+    fz += h;
+    tx += y * h - z * g;
+    ty += z * f - x * h;
+    tz += x * g - y * f;
+  }
+};
+
+// Transform, field, its gradient, force, torque and their sum for every point of a shell that lies on the field's
+// surface: about half of them are in contact.
 void BM_PointshellBrute(benchmark::State& state) {
   const TriMesh mesh = bumpySphere(0.05, 5);
   const DistanceField field = fieldOf(mesh, 0.1 / 128);
   const PointShell shell(mesh, 1e-9, static_cast<std::size_t>(state.range(0)));
+  const Eigen::Vector3f shift = (-field.origin() / field.voxel()).cast<float>();
   double angle = 0;
   for (auto _ : state) {
     angle += 0.001;
     const Mat3 turn = Eigen::AngleAxisd(angle, Vec3(1, 2, 3).normalized()).toRotationMatrix() / field.voxel();
-    const Vec3 shift = -field.origin() / field.voxel();
-    double force = 0;
-    for (const PointShell::Vec3f& p : shell.points()) {
-      const Vec3 g = turn * p.cast<double>() + shift;
-      force += static_cast<double>(std::min(0.0F, field.inVoxels(g.x(), g.y(), g.z())));
+    Wrenches sum;
+    FieldSweep sweep(field);
+    for (const PointShell::Range& block : shell.blocks()) {
+      sweep.place(turn.cast<float>(), shift, std::span(shell.points()).subspan(block.first, block.end - block.first));
+      sweep.lookUpSlopes();
+      for (std::size_t i = 0; i < sweep.count(); i += 4) sum.add(sweep, i);
     }
-    benchmark::DoNotOptimize(force);
+    benchmark::DoNotOptimize(sum);
   }
   state.counters["ns_per_point"] =
       benchmark::Counter(static_cast<double>(shell.size()) * 1e-9,
