@@ -29,16 +29,42 @@ Pose movedBy(const Pose& X_WT, const Vec6& step) noexcept {
   return {X_WT.p + step.head<3>(), (by * X_WT.q).normalized()};
 }
 
+namespace {
+
+/// Damper of a part of the coupling, motion or turn: its force and its resistance.
+struct Damper {
+  Vec3 force;
+  Mat3 resistance;
+};
+
+// `stretch`: of the spring at the end of the last tick. It gives the direction of a damper along the spring, which
+// hence stays the same while a tick looks for its balance.
+Damper damperOf(double damping, bool along, const Vec3& moved, const Vec3& stretch) noexcept {
+  if (!along) return {-damping * moved, damping * Mat3::Identity()};
+  const double length = stretch.norm();
+  if (!(length > 0)) return {Vec3::Zero(), Mat3::Zero()};
+  const Vec3 d = stretch / length;
+  const double back = moved.dot(d);
+  if (!(back > 0)) return {Vec3::Zero(), Mat3::Zero()};  // moves away from the handle
+  return {-damping * back * d, damping * d * d.transpose()};
+}
+
+}  // namespace
+
 CouplingForce couplingForce(const ToolCoupling& coupling, const Pose& X_WH, const Pose& X_WT, const Vec6& moved,
                             double period) noexcept {
   CouplingForce force;
-  const double damping = coupling.damping / period, turn_damping = coupling.turn_damping / period;
-  force.wrench.head<3>() = saturated(coupling.stiffness * (X_WH.p - X_WT.p), coupling.max_force);
-  force.wrench.tail<3>() = saturated(coupling.turn_stiffness * turnBetween(X_WT.q, X_WH.q), coupling.max_torque);
-  force.wrench.head<3>() -= damping * moved.head<3>();
-  force.wrench.tail<3>() -= turn_damping * moved.tail<3>();
-  force.stiffness.diagonal().head<3>().setConstant(coupling.stiffness + damping);
-  force.stiffness.diagonal().tail<3>().setConstant(coupling.turn_stiffness + turn_damping);
+  const Vec3 stretch = X_WH.p - X_WT.p, turn = turnBetween(X_WT.q, X_WH.q);
+  const Vec3 way = moved.head<3>(), turned = moved.tail<3>();
+  const bool along = coupling.damping_along;
+  const Damper straight = damperOf(coupling.damping / period, along, way, stretch + way);
+  const Damper turning = damperOf(coupling.turn_damping / period, along, turned, turn + turned);
+  force.wrench << saturated(coupling.stiffness * stretch, coupling.max_force) + straight.force,
+      saturated(coupling.turn_stiffness * turn, coupling.max_torque) + turning.force;
+  force.stiffness.topLeftCorner<3, 3>() = straight.resistance;
+  force.stiffness.bottomRightCorner<3, 3>() = turning.resistance;
+  force.stiffness.diagonal().head<3>().array() += coupling.stiffness;
+  force.stiffness.diagonal().tail<3>().array() += coupling.turn_stiffness;
   return force;
 }
 

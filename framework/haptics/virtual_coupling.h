@@ -21,7 +21,9 @@ inline Vec3 saturated(const Vec3& wanted, double max) noexcept {
 
 /// Virtual coupling [Colgate1995] of a tool at X_WT with its handle at X_WH. `moved`: motion and turn of the tool less
 /// that of the handle within this tick of `period` [s]. The stiffness is that of small displacements, which is an upper
-/// bound beyond half of the limits. Thread: any; nonblocking.
+/// bound beyond half of the limits. It damps each motion of the tool against the handle or, if `damping_along`, as the
+/// lectures do: v_d = (v . d) d / |d|^2 along the displacement d of the handle against the tool at the end of the last
+/// tick, nothing while the tool moves away; likewise turns. Thread: any; nonblocking.
 CouplingForce couplingForce(const ToolCoupling& coupling, const Pose& X_WH, const Pose& X_WT, const Vec6& moved,
                             double period) noexcept;
 

@@ -134,12 +134,13 @@ struct DeviceLimits {
 /// The spring-damper between a tool with volume and the handle of the device that holds it (virtual coupling). Its
 /// forces grow linearly up to half of their limit and then approach the limit, so that no jam exceeds it.
 struct ToolCoupling {
-  double stiffness = 1000;    ///< [N/m], > 0
-  double turn_stiffness = 1;  ///< [N m/rad], > 0
-  double damping = 0,         ///< of the tool's motion against the handle [N s/m]
-      turn_damping = 0;       ///< the same of its turning [N m s/rad]
-  double max_force = 8,       ///< [N], > 0
-      max_torque = 0.5;       ///< [N m], > 0
+  double stiffness = 1000;     ///< [N/m], > 0
+  double turn_stiffness = 1;   ///< [N m/rad], > 0
+  double damping = 0,          ///< of the tool's motion against the handle [N s/m]
+      turn_damping = 0;        ///< the same of its turning [N m s/rad]
+  double max_force = 8,        ///< [N], > 0
+      max_torque = 0.5;        ///< [N m], > 0
+  bool damping_along = false;  ///< damps only along the spring, and only a tool that comes back to the handle
 };
 
 /// A solid in the hand, instead of a fingertip: it touches with its whole surface.

@@ -195,6 +195,7 @@ ToolCoupling readCoupling(const Element& tool) {
   coupling.turn_damping = tool.number("turn_damping", coupling.turn_damping);
   coupling.max_force = tool.number("max_force", coupling.max_force);
   coupling.max_torque = tool.number("max_torque", coupling.max_torque);
+  coupling.damping_along = tool.boolean("damping_along", coupling.damping_along);
   return coupling;
 }
 
