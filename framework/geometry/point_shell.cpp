@@ -229,6 +229,14 @@ bool allHaveRoom(const std::vector<ShellCandidate>& images, double spacing, cons
                      [&](const ShellCandidate& one) { return index.hasRoom(one, chosen); });
 }
 
+void moveOnto(const PointShell::Exact& exact, std::vector<ShellCandidate>& candidates) {
+  for (ShellCandidate& one : candidates) {
+    Vec3 p = one.p.cast<double>(), normal = one.normal.cast<double>();
+    exact(p, normal);
+    one = {p.cast<float>(), normal.cast<float>()};
+  }
+}
+
 PointShell::Ball ballAround(std::span<const Vec3f> points) {
   Vec3f low = points[0], high = points[0];
   for (const Vec3f& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -254,7 +262,7 @@ std::uint32_t mortonOf(const Vec3f& p, double radius) {
 
 }  // namespace
 
-PointShell::PointShell(const TriMesh& mesh, double spacing, std::size_t max_points) {
+PointShell::PointShell(const TriMesh& mesh, double spacing, std::size_t max_points, const Exact& exact) {
   const Surface surface(mesh);
   const double area = surface.area();
   spacing =
@@ -264,6 +272,7 @@ PointShell::PointShell(const TriMesh& mesh, double spacing, std::size_t max_poin
   while (kPerSpacing * area / (coarsest * coarsest) > 4 * kCoarsest) coarsest *= 2;
   const Mirrors mirrors(mesh);
   std::vector<ShellCandidate> left = surface.candidates(spacing), chosen;
+  if (exact) moveOnto(exact, left);
   for (double s = coarsest; s > 0.75 * spacing && chosen.size() < max_points; s /= 2) {
     Chosen index(s, left.size());
     for (const ShellCandidate& one : chosen) index.add(one);
@@ -291,6 +300,7 @@ PointShell::PointShell(const TriMesh& mesh, double spacing, std::size_t max_poin
     }
     addLevel(first, s);
   }
+  for (const Vec3f& p : points_) radius_ = std::max(radius_, static_cast<double>(p.norm()));
 }
 
 void PointShell::addLevel(std::size_t first, double spacing) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "framework/core/math/spatial.h"
@@ -38,10 +39,13 @@ class PointShell {
     double spacing = 0;             ///< min distance of points that face the same way; half of it beside a mirror [m]
   };
 
+  /// Moves a place on the mesh [m] and its unit normal onto the surface that the mesh approximates.
+  using Exact = std::function<void(Vec3& p, Vec3& normal)>;
+
   PointShell() = default;  ///< no points
   /// `spacing` [m] > 0 of the finest level, at most `max_points`; fewer levels cover a small mesh. The mesh has
-  /// adjacency. Deterministic. Thread: before a run.
-  PointShell(const TriMesh& mesh, double spacing, std::size_t max_points);
+  /// adjacency. With `exact`, the points lie where it moves them. Deterministic. Thread: before a run.
+  PointShell(const TriMesh& mesh, double spacing, std::size_t max_points, const Exact& exact = {});
 
   std::size_t size() const noexcept { return points_.size(); }             ///< points of all levels
   const std::vector<Vec3f>& points() const noexcept { return points_; }    ///< [m]
