@@ -37,14 +37,14 @@ struct ToolInput {
 };
 
 /// Says where each tool is held by the bodies, and which forces hold it there. The device feels exactly the sum of these
-/// forces, and each body the opposite of its own.
+/// forces, with that of the tool's inertia in its state, and each body the opposite of its own.
 /// Thread: haptic, except for construction and what(); no allocation, lock, exception or system call.
 class ToolRenderer {
  public:
   virtual ~ToolRenderer() = default;
-  /// Adds the forces to `forces` (empty, with room for maxForces()) and updates `state`, which the last tick left. A
-  /// force that is not finite, or of no body, ends the run: forces go to zero, and the fault is reported with the
-  /// renderer's name.
+  /// Adds the forces to `forces` (empty, with room for maxForces()) and updates `state`, which the last tick left, its
+  /// f_H_W and t_H_W zeroed. A force that is not finite, or of no body, ends the run: forces go to zero, and the fault
+  /// is reported with the renderer's name.
   virtual void touch(const ToolInput& input, BoundedList<ToolForce>& forces, ToolState& state) noexcept = 0;
   /// Maximum number of forces on one tool.
   virtual std::size_t maxForces() const noexcept = 0;

@@ -9,12 +9,14 @@ namespace presa {
 
 /// Where a tool is and how its renderer fared, for pictures, recordings and reports.
 struct ToolState {
-  bool alive = false;        ///< the device gave a usable sample
-  Pose X_WT;                 ///< tool, held off the bodies
-  std::uint32_t points = 0;  ///< places in contact in this tick
-  std::uint32_t coarse = 0;  ///< since the start: ticks that examined the surface more coarsely than it is given
-  std::uint32_t late = 0;    ///< since the start: ticks at whose end tool and forces were not in balance yet
-  double depth = 0;          ///< deepest place in this tick [m]
+  bool alive = false;         ///< the device gave a usable sample
+  Pose X_WT;                  ///< tool, held off the bodies
+  std::uint32_t points = 0;   ///< places in contact in this tick
+  std::uint32_t coarse = 0;   ///< since the start: ticks that examined the surface more coarsely than it is given
+  std::uint32_t late = 0;     ///< since the start: ticks at whose end tool and forces were not in balance yet
+  double depth = 0;           ///< deepest place in this tick [m]
+  Vec3 f_H_W = Vec3::Zero();  ///< on the handle, by the inertia of a tool with mass [N]
+  Vec3 t_H_W = Vec3::Zero();  ///< the same about H [N m]
 };
 
 /// States of all tools, in the order of the scene's roles; fingertips have one that is not alive. Written by: haptic

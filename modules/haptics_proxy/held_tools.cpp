@@ -32,6 +32,7 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
   out.has_volume = true;
   out.p_WH = out.p_WP = out.p_BP = input.p_WH;
   out.v_WH = input.v_WH;
+  state.f_H_W = state.t_H_W = Vec3::Zero();
   if (!input.valid) {
     state.alive = false;
     return;
@@ -42,7 +43,7 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
   renderer_->touch({d, X_WH, input.v_WH, input.w_WT, period, touchables, materials_}, forces_, state);
   state.alive = true;
   if (forces_.lost() > 0) ++all.coverage_lost;
-  if (!keepsContract(forces_, state.X_WT, touchables)) [[unlikely]] {
+  if (!keepsContract(forces_, state.X_WT, touchables) || !(state.f_H_W + state.t_H_W).allFinite()) [[unlikely]] {
     broken_.store(true, std::memory_order_release);
     out.f_H_W.setConstant(std::numeric_limits<double>::quiet_NaN());
     state.X_WT = X_WH;
@@ -50,6 +51,8 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
   }
   out.p_WP = out.p_BP = state.X_WT.p;
   if (!forces_.empty()) write(input, touchables, all, out);
+  out.f_H_W += state.f_H_W;
+  out.t_H_W += state.t_H_W;
 }
 
 // Sums the forces of one tool, and lists them.

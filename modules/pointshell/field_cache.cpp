@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -26,12 +27,13 @@ constexpr std::chrono::milliseconds kLong{200};  // what takes longer is kept fo
 constexpr std::uintmax_t kMost = 256U << 20U;    // of all fields in the cache [bytes]
 
 /// "" when the user has no cache folder.
-std::string fileOf(const TriMesh& mesh, const DistanceField::Settings& settings) {
+std::string fileOf(const TriMesh& mesh, double thickness, const DistanceField::Settings& settings) {
   const std::string folder = input::cacheFolder("fields");
   if (folder.empty()) return {};
   Fnv1a hash;
   hash.addWord(std::bit_cast<std::uint64_t>(settings.voxel));
   hash.addWord(std::bit_cast<std::uint64_t>(settings.band));
+  if (thickness > 0) hash.addWord(std::bit_cast<std::uint64_t>(thickness));
   for (const Vec3& v : mesh.vertices) {
     for (const double x : v) hash.addWord(std::bit_cast<std::uint64_t>(x));
   }
@@ -95,14 +97,20 @@ void keepField(const std::string& file, const DistanceField& field) {
 
 }  // namespace
 
-std::optional<DistanceField> cachedField(const TriMesh& mesh, const DistanceField::Settings& settings,
+std::optional<DistanceField> cachedField(const TriMesh& mesh, double thickness, const DistanceField::Settings& settings,
                                          DistanceField::Size& size) {
-  const std::string file = fileOf(mesh, settings);
+  const std::string file = fileOf(mesh, thickness, settings);
   if (std::optional<DistanceField> known = readField(file, settings.max_bytes)) return known;
   const auto start = std::chrono::steady_clock::now();
   const MeshDistance distance(mesh);
-  std::optional<DistanceField> field = DistanceField::build(
-      [&](const Vec3& p, double bound) { return distance(p, bound); }, boundsOf(mesh), settings, &size);
+  const double half = thickness / 2;
+  const auto solid = [&](const Vec3& p, double bound) { return distance(p, bound); };
+  const auto shell = [&](const Vec3& p, double bound) { return std::abs(distance(p, bound + half)) - half; };
+  AxisBox bounds = boundsOf(mesh);
+  bounds.low.array() -= half;
+  bounds.high.array() += half;
+  std::optional<DistanceField> field = thickness > 0 ? DistanceField::build(shell, bounds, settings, &size)
+                                                     : DistanceField::build(solid, bounds, settings, &size);
   if (field && std::chrono::steady_clock::now() - start > kLong) keepField(file, *field);
   return field;
 }

@@ -1,9 +1,11 @@
 #include "modules/pointshell/shell_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace presa {
 namespace {
@@ -88,12 +90,14 @@ bool ShellContact::gatherFrom(std::uint32_t s, const Pose& X_BT, double margin,
       if (is_far(block.ball)) continue;
       examined_ += block.end - block.first;
       if (examined_ > law_.budget) return false;
+      const auto points_T = std::span(shell_.points()).subspan(block.first, block.end - block.first);
+      std::array<float, FieldSweep::kMax> distance;
+      solid.distances(points_T, distance);
       for (std::uint32_t i = block.first; i < block.end; ++i) {
-        const Eigen::Vector3f& p_T = shell_.points()[i];
-        if (!(solid.distance(p_T) < margin)) continue;
+        if (!(static_cast<double>(distance[i - block.first]) < margin)) continue;
         Hold& hold = holds_[i];
         const bool is_new = hold.gathering + 1 != gathering_ && hold.gathering != gathering_;
-        if (near_.add({p_T, i, s, is_new}) == nullptr) return false;
+        if (near_.add({points_T[i - block.first], i, s, is_new}) == nullptr) return false;
         hold.gathering = gathering_;
       }
     }
@@ -109,43 +113,48 @@ const Vec3& ShellContact::normalOf(NearPoint& near, const SeenSolid& solid) cons
   return near.nhat_T;
 }
 
+// Points of a solid come in a row.
 void ShellContact::findTouching(const Pose& X_WT) noexcept {
   touching_.clear();
   nearest_ = std::numeric_limits<double>::infinity();
-  std::optional<SeenSolid> solid;  // that of the last point: points of a solid come in a row
-  std::uint32_t seen = 0;
-  for (NearPoint& near : near_) {
-    if (!solid || near.solid != seen) {
-      seen = near.solid;
-      solid.emplace(solids_[seen], X_WB_[seen].inverse() * X_WT);
-    }
-    const double distance = solid->distance(near.p_T);
-    nearest_ = std::min(nearest_, distance);
-    if (!law_.printed) {
-      if (distance < 0) {
+  std::optional<SeenSolid> solid;
+  for (std::size_t first = 0, end = 0; first < near_.size(); first = end) {
+    const std::uint32_t seen = near_[first].solid;
+    if (first == 0 || near_[first - 1].solid != seen) solid.emplace(solids_[seen], X_WB_[seen].inverse() * X_WT);
+    SeenPoints points(*solid);
+    for (; end < near_.size() && near_[end].solid == seen && points.count() < SeenPoints::kMax; ++end)
+      points.add(near_[end].p_T);
+    points.lookUp();
+    for (std::size_t i = 0; i < points.count(); ++i) {
+      nearest_ = std::min(nearest_, points.distance(i));
+      NearPoint& near = near_[first + i];
+      if (law_.printed)
+        touchAsPrinted(near, *solid);
+      else if (points.distance(i) < 0)
         touching_.add({.point = near.point,
                        .solid = seen,
                        .p_T = near.p_T.cast<double>(),
                        .nhat_T = normalOf(near, *solid),
-                       .slope_T = solid->slope(near.p_T),
-                       .depth = -distance,
+                       .slope_T = points.slope(i),
+                       .depth = -points.distance(i),
                        .is_new = near.is_new});
-      }
-      continue;
     }
-    // along the tool's own normal: the force turns with the tool
-    const Vec3 nhat_T = -shell_.normals()[near.point].cast<double>(), p_T = near.p_T.cast<double>();
-    Vec3 center_T = Vec3::Zero();
-    const double depth = -solid->voxelAt(near.p_T, center_T) + (center_T - p_T).dot(nhat_T);
-    if (depth > 0)
-      touching_.add({.point = near.point,
-                     .solid = seen,
-                     .p_T = p_T,
-                     .nhat_T = nhat_T,
-                     .slope_T = nhat_T,
-                     .depth = depth,
-                     .is_new = near.is_new});
   }
+}
+
+// Along the tool's own normal: the force turns with the tool.
+void ShellContact::touchAsPrinted(const NearPoint& near, const SeenSolid& solid) noexcept {
+  const Vec3 nhat_T = -shell_.normals()[near.point].cast<double>(), p_T = near.p_T.cast<double>();
+  Vec3 center_T = Vec3::Zero();
+  const double depth = -solid.voxelAt(near.p_T, center_T) + (center_T - p_T).dot(nhat_T);
+  if (!(depth > 0)) return;
+  touching_.add({.point = near.point,
+                 .solid = near.solid,
+                 .p_T = p_T,
+                 .nhat_T = nhat_T,
+                 .slope_T = nhat_T,
+                 .depth = depth,
+                 .is_new = near.is_new});
 }
 
 // The mean of the depths, weighted by them: continuous when a point comes or goes, and as stiff for one point as for

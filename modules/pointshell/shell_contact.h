@@ -83,6 +83,7 @@ class ShellContact {
   bool stillHolds(const Pose& X_WT, double margin) const noexcept;
   bool gatherFrom(std::uint32_t solid, const Pose& X_BT, double margin, const PointShell::Level& level) noexcept;
   void findTouching(const Pose& X_WT) noexcept;
+  void touchAsPrinted(const NearPoint& near, const SeenSolid& solid) noexcept;
   const Vec3& normalOf(NearPoint& near, const SeenSolid& solid) const noexcept;
   /// The tangential stretch of a point in T [m]; zero: friction does not hold it yet.
   Vec3 stretchOf(const TouchingPoint& one, bool held) const noexcept;

@@ -13,30 +13,45 @@ namespace presa {
 namespace {
 
 constexpr double kVoxelsAlong = 200;  // of the mesh's longest side, where the scene says nothing
+constexpr double kVoxelsThick = 4;    // of a thin shell: its inside then has samples, and each side a normal
 
 using SharedField = std::shared_ptr<const DistanceField>;
 
-void refuseOpen(const Body& body, const TriMesh& mesh) {
+std::string millimetres(double length) { return std::to_string(1e3 * length) + " mm"; }
+
+/// Thickness of the shell that an open mesh becomes; 0: a solid.
+double thicknessOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings) {
   const MeshReport report = checkMesh(mesh);
-  if (report.closed() && report.flipped_edges == 0) return;
+  if (report.closed() && report.flipped_edges == 0) return 0;
+  if (settings.shell_thickness > 0) return settings.shell_thickness;
   throw std::invalid_argument("the haptic mesh of body '" + body.name + "' is open or folded (" +
                               std::to_string(report.open_edges) +
-                              " open edges): a distance field needs an inside; "
-                              "close the mesh, or give a primitive");
+                              " open edges): a distance field needs an inside; close the mesh, give a primitive, or "
+                              "make it a thin shell with <pointshell shell_thickness=…>");
+}
+
+double voxelOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings, double thickness) {
+  const AxisBox bounds = boundsOf(mesh);
+  const double usual = (bounds.high - bounds.low).maxCoeff() / kVoxelsAlong;
+  const double most = thickness / kVoxelsThick;
+  if (!(thickness > 0)) return settings.voxel > 0 ? settings.voxel : usual;
+  if (!(settings.voxel > 0)) return std::min(usual, most);
+  if (settings.voxel <= most) return settings.voxel;
+  throw std::invalid_argument("the mesh of body '" + body.name + "' is open, and a shell_thickness of " +
+                              millimetres(thickness) + " is less than four voxels of " + millimetres(settings.voxel) +
+                              ": a voxel of at most " + millimetres(most) + ", or a thicker shell");
 }
 
 SharedField fieldOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings, std::size_t used) {
-  refuseOpen(body, mesh);
-  const AxisBox bounds = boundsOf(mesh);
-  const double voxel = settings.voxel > 0 ? settings.voxel : (bounds.high - bounds.low).maxCoeff() / kVoxelsAlong;
+  const double thickness = thicknessOf(body, mesh, settings), voxel = voxelOf(body, mesh, settings, thickness);
   const DistanceField::Settings wanted{.voxel = voxel,
                                        .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes)};
   DistanceField::Size size;
-  if (std::optional<DistanceField> field = cachedField(mesh, wanted, size))
+  if (std::optional<DistanceField> field = cachedField(mesh, thickness, wanted, size))
     return std::make_shared<const DistanceField>(*std::move(field));
   throw std::invalid_argument("the distance field of body '" + body.name + "' needs " +
-                              std::to_string((size.bytes >> 20U) + 1) + " MiB with voxels of " +
-                              std::to_string(1e3 * voxel) + " mm, and " + std::to_string(wanted.max_bytes >> 20U) +
+                              std::to_string((size.bytes >> 20U) + 1) + " MiB with voxels of " + millimetres(voxel) +
+                              ", and " + std::to_string(wanted.max_bytes >> 20U) +
                               " MiB are left: a larger voxel, or more memory");
 }
 
@@ -74,10 +89,41 @@ double SeenSolid::exact(const Eigen::Vector3f& p_T) const noexcept {
   return deepest <= 0 ? deepest : out.cwiseMax(0).norm();
 }
 
-Vec3 SeenSolid::slope(const Eigen::Vector3f& p_T) const noexcept {
-  if (!solid_.field) return normal(p_T);
-  const Vec3 g = turn_ * p_T.cast<double>() + shift_;
-  return voxel_ * (turn_.transpose() * solid_.field->slopeInVoxels(g.x(), g.y(), g.z()).cast<double>());
+void SeenSolid::distances(std::span<const Eigen::Vector3f> points_T,
+                          std::array<float, FieldSweep::kMax>& out) const noexcept {
+  constexpr float kRounding = 1e-3F;  // of a place in single precision, in a grid of up to 3000 voxels along a side
+  if (!solid_.field) {
+    for (std::size_t i = 0; i < points_T.size(); ++i) out[i] = static_cast<float>(exact(points_T[i]));
+    return;
+  }
+  FieldSweep sweep(*solid_.field);
+  sweep.place(turn_.cast<float>(), shift_.cast<float>(), points_T);
+  sweep.lookUp();
+  const auto voxel = static_cast<float>(voxel_);
+  for (std::size_t i = 0; i < points_T.size(); ++i) out[i] = voxel * (sweep.distance[i] - kRounding);
+}
+
+SeenPoints::SeenPoints(const SeenSolid& solid) noexcept : solid_(solid) {
+  if (solid.solid_.field) sweep_.emplace(*solid.solid_.field);
+}
+
+void SeenPoints::add(const Eigen::Vector3f& p_T) noexcept {
+  points_T_[count_++] = p_T;
+  if (!sweep_) return;
+  const Vec3 g = solid_.turn_ * p_T.cast<double>() + solid_.shift_;
+  sweep_->add(g.x(), g.y(), g.z());
+}
+
+void SeenPoints::lookUp() noexcept {
+  if (sweep_) sweep_->lookUpSlopes();
+  for (std::size_t i = 0; i < count_; ++i)
+    distance_[i] = sweep_ ? solid_.voxel_ * static_cast<double>(sweep_->distance[i]) : solid_.exact(points_T_[i]);
+}
+
+Vec3 SeenPoints::slope(std::size_t i) const noexcept {
+  if (!sweep_) return solid_.normal(points_T_[i]);
+  const Eigen::Vector3f slope(sweep_->slope[0][i], sweep_->slope[1][i], sweep_->slope[2][i]);
+  return solid_.voxel_ * (solid_.turn_.transpose() * slope.cast<double>());
 }
 
 Vec3 SeenSolid::normal(const Eigen::Vector3f& p_T) const noexcept {

@@ -26,7 +26,7 @@ class FieldCache : public testing::Test {
   }
   DistanceField make() const {
     DistanceField::Size size;
-    return *cachedField(mesh_, {.voxel = 0.0008}, size);
+    return *cachedField(mesh_, 0, {.voxel = 0.0008}, size);
   }
   fs::path file() const {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {

@@ -65,9 +65,11 @@ struct Wobbled {
   std::uint32_t late = 0;   // ticks
 };
 
-Wobbled wobble(double clearance, const std::string& material, double seconds) {
+const char* const kStiff = R"(<pointshell stiffness="500000"/>)";
+
+Wobbled wobble(double clearance, const std::string& material, double seconds, const std::string& settings = kStiff) {
   const test::MeshFile socket = socketFor(clearance);
-  OneTool tool(toolWorld(kPeg, socket.body("socket", material), R"(<pointshell stiffness="500000"/>)"));
+  OneTool tool(toolWorld(kPeg, socket.body("socket", material), settings));
   const Pose above{{0, 0, 0.062}, Quat::Identity()};
   tool.tick(above);
   // 5 mm beyond the hole's bottom: 5 N
@@ -114,6 +116,20 @@ TEST_P(Peg, IsDrivenInAndWobbledForAMinute) {
 
 INSTANTIATE_TEST_SUITE_P(Clearances, Peg,
                          testing::Combine(testing::Values(0.001, 0.0002, 0.00005), testing::Values("smooth", "rough")));
+
+// With a mass of its own the peg keeps to the same bounds, and what it swings back it got from the hand before.
+TEST(PegWithMass, IsWobbledWithoutGivingEnergy) {
+  for (const double clearance : {0.001, 0.00005}) {
+    const Wobbled w = wobble(clearance, "rough", 11, R"(<pointshell stiffness="500000" mass="0.15"/>)");
+    std::printf(
+        "clearance %.2f mm, 150 g: force %.2f N, step %.3f N, torque %.3f N m, depth %.1f um, energy %.2e J, late %u\n",
+        1e3 * clearance, w.largest, w.largest_step, w.torque, 1e6 * w.deepest, w.energy, w.late);
+    EXPECT_LT(w.deepest, kVoxel);
+    EXPECT_GT(w.deepest_peg, 0.01 - kVoxel);
+    EXPECT_LT(w.largest_step, 0.5) << "no jump";
+    EXPECT_LE(w.energy, 1e-6) << "no energy to the hand in whole turns";
+  }
+}
 
 // At rest in the hole nothing hums: the force of a hand that holds still is constant.
 TEST(PegAtRest, DoesNotHum) {
