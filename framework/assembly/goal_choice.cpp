@@ -12,8 +12,8 @@ constexpr double kReachDegree = std::numbers::pi / 180;
 
 std::size_t placeOf(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-bool isNear(const Assembly& assembly, const PoseDifference& difference, double slack) {
-  return difference.distance < slack * assembly.snap_distance &&
+bool isNear(const Assembly& assembly, const AssemblyGoal& goal, const PoseDifference& difference, double slack) {
+  return difference.distance < slack * assembly.snapDistanceOf(goal) &&
          difference.angle < slack * assembly.snap_angle_deg * kReachDegree;
 }
 
@@ -24,7 +24,7 @@ PoseDifference differenceTo(const AssemblyGoal& goal, const Pose& X_WB) {
 }
 
 bool withinReach(const Assembly& assembly, const AssemblyGoal& goal, const Pose& X_WB, double slack) {
-  return isNear(assembly, differenceTo(goal, X_WB), slack);
+  return isNear(assembly, goal, differenceTo(goal, X_WB), slack);
 }
 
 std::int32_t missingBefore(const Assembly& assembly, std::size_t goal, const std::vector<GoalState>& goals) {
@@ -72,7 +72,7 @@ void GoalChoice::findCandidates(const ObjectState& objects) {
       const std::int32_t there = goal_of_[body];
       if (there != kNoGoal && goals_[placeOf(there)].status == Status::kFilled) continue;
       const PoseDifference difference = differenceTo(goal, objects.bodies[body].X_WB_end);
-      const bool near = isNear(assembly_, difference, there == static_cast<std::int32_t>(g) ? kLeave : 1);
+      const bool near = isNear(assembly_, goal, difference, there == static_cast<std::int32_t>(g) ? kLeave : 1);
       if (refused_[body] == static_cast<std::int32_t>(g)) {
         if (!near) refused_[body] = kNoGoal;
         continue;

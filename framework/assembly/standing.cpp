@@ -41,7 +41,7 @@ AssemblyState standing(const Assembly& assembly, const ObjectState& objects) {
         assembly.goals[g].after, [&](std::size_t before) { return state.goals[before].status != Status::kFilled; });
     for (const std::size_t body : assembly.goals[g].bodies) {
       const PoseDifference difference = differenceTo(assembly.goals[g], objects.bodies[body].X_WB_end);
-      if (taken[body] != 0 || difference.distance > assembly.snap_distance ||
+      if (taken[body] != 0 || difference.distance > assembly.snapDistanceOf(assembly.goals[g]) ||
           difference.angle > assembly.snap_angle_deg * kStandingDegree)
         continue;
       const bool blocked = waits != assembly.goals[g].after.end();

@@ -147,6 +147,8 @@ struct ToolCoupling {
 struct Tool {
   Geometry geometry;      ///< X_BG is its pose in the frame T of the handle
   ToolCoupling coupling;  ///< between handle and tool
+  /// Bit of FingerInput::buttons that puts it down and picks it up; none: it is always held.
+  std::optional<int> put_down{};
 };
 
 /// A device role that the scene asks for. The rig binds hardware to it.
@@ -215,6 +217,7 @@ struct AssemblyGoal {
   std::size_t fold = 1;              ///< order of rotational symmetry about the body's z axis (n-fold; 0: continuous)
   std::vector<std::size_t> after;    ///< goals that must be filled first, indices into Assembly::goals
   std::size_t element = kNoElement;  ///< index into AssemblyWords::elements
+  double snap_distance = 0;          ///< of this goal; 0: Assembly::snap_distance [m]
 };
 
 /// An assembly task. A body near a free goal is pulled to it and then stays there.
@@ -233,6 +236,11 @@ struct Assembly {
   std::vector<AssemblyGoal> goals;     ///< in document order
   AssemblyWords words;                 ///< shown to the user
   double elapsed = 0;                  ///< assembly time carried over from earlier runs [s]
+
+  /// Snap distance of one of its goals [m].
+  double snapDistanceOf(const AssemblyGoal& goal) const noexcept {
+    return goal.snap_distance > 0 ? goal.snap_distance : snap_distance;
+  }
 };
 
 /// Where a run's state is published for viewers (framework/bus).

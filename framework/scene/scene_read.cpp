@@ -178,6 +178,7 @@ Assembly readAssembly(const Element& element, const std::vector<Body>& bodies) {
                               .X_WB = readPose(goal),
                               .fold = static_cast<std::size_t>(goal.number("fold", 1)),
                               .after = {}});
+    assembly.goals.back().snap_distance = goal.number("reach", 0);
     if (const std::string name = goal.attribute("element"); !name.empty())
       assembly.goals.back().element = indicesOf({name}, elements).front();
   }
@@ -210,8 +211,11 @@ DeviceRole readDevice(const Element& element, const std::string& directory) {
     device.limits.torque_rate = limits.number("torque_rate", device.limits.torque_rate);
     device.limits.watchdog_ms = limits.number("watchdog_ms", device.limits.watchdog_ms);
   }
-  if (std::optional<Geometry> tool = readGeometry(element, "tool", directory))
-    device.tool = {*std::move(tool), readCoupling(element.children("tool")[0])};
+  if (std::optional<Geometry> tool = readGeometry(element, "tool", directory)) {
+    const Element& told = element.children("tool")[0];
+    device.tool = {*std::move(tool), readCoupling(told)};
+    if (told.hasAttribute("put_down")) device.tool->put_down = static_cast<int>(told.number("put_down", 0));
+  }
   device.where = element.where();
   return device;
 }
