@@ -16,6 +16,7 @@
 #include "apps/common/pacer.h"
 #include "apps/common/terminal/interruption.h"
 #include "apps/common/terminal/keys.h"
+#include "apps/common/terminal/load_progress.h"
 #include "apps/common/terminal/prompt_end.h"
 #include "apps/common/terminal/status_line.h"
 #include "apps/common/version.h"
@@ -141,7 +142,11 @@ TerminalRun::TerminalRun(Loaded loaded, Settings settings)
   session.wrap = settings_.wrap;
   session.guide = settings_.guide;
   session.more = observers(loaded);
-  run_ = std::make_unique<Run>(std::move(loaded), control_, std::move(session));
+  {
+    std::optional<terminal::LoadProgress> progress;
+    if (!settings_.quiet) progress.emplace();
+    run_ = std::make_unique<Run>(std::move(loaded), control_, std::move(session));
+  }
   run_->onPoll([this] { poll(); });
   offerToView();
   offerToCommands();

@@ -34,7 +34,8 @@ class TerminalRun {
     /// Called with every poll; `key` was pressed on the terminal, 0: none. False ends the run.
     std::function<bool(Session& session, char key)> watch = {};
   };
-  /// Builds the session. Throws InputError before anything is written.
+  /// Builds the session, with progress where that takes long. Throws InputError before anything is written, and
+  /// WorkStopped after Ctrl-C meanwhile.
   TerminalRun(Loaded loaded, Settings settings);
   ~TerminalRun();
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/geometry/long_work.h"
 #include "framework/scene/plugin_element.h"
 #include "framework/scene/scene.h"
 
@@ -28,6 +29,8 @@ auto madeFor(const PluginElement& element, const Create& create) -> decltype(cre
     diagnostics.error(kCannotBeMade, element.where,
                       "plug-in '" + element.plugin + "' made nothing for <" + element.element + ">");
   } catch (const InputError&) {
+    throw;
+  } catch (const WorkStopped&) {
     throw;
   } catch (const std::invalid_argument& error) {  // the scene's author can mend it
     diagnostics.error(kCannotBeMade, element.where, "<" + element.element + ">: " + error.what());

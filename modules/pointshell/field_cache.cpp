@@ -112,6 +112,7 @@ std::optional<DistanceField> cachedField(const TriMesh& mesh, double thickness, 
   std::optional<DistanceField> field = thickness > 0 ? DistanceField::build(shell, bounds, settings, &size)
                                                      : DistanceField::build(solid, bounds, settings, &size);
   if (field && std::chrono::steady_clock::now() - start > kLong) keepField(file, *field);
+  if (field && settings.go_on && !settings.go_on(1)) return std::nullopt;
   return field;
 }
 

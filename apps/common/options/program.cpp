@@ -17,6 +17,7 @@
 #include "apps/common/version.h"
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/core/diagnostics/printable.h"
+#include "framework/geometry/long_work.h"
 #include "framework/input/folders.h"
 
 namespace presa {
@@ -186,6 +187,8 @@ int runProgram(int argc, char** argv, const Program& program) {
   } catch (const InputError& error) {
     std::fputs(error.diagnostics().text().c_str(), stderr);
     return kExitBadInput;
+  } catch (const WorkStopped&) {
+    return kExitInterrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "presa: error: %s\n", printableLines(error.what()).c_str());
     return kExitFault;
