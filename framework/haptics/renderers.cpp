@@ -45,6 +45,13 @@ std::unique_ptr<ToolRenderer> makeToolRenderer(const World& world) {
   return madeFor(settings, [&] { return table.create(settings, world); });
 }
 
+std::vector<ToolField> toolFieldsOf(const World& world) {
+  const PluginElement settings = settingsOf(world.scene, world.scene.haptics.tool_renderer, PluginKind::kToolRenderer);
+  const auto& table = pluginTable<ToolRendererPlugin>(settings.plugin, "presaToolRendererPlugin");
+  if (table.fields == nullptr) return {};
+  return *madeFor(settings, [&] { return std::make_unique<std::vector<ToolField>>(table.fields(settings, world)); });
+}
+
 bool keepsContract(const BoundedList<ToolForce>& forces, const Pose& X_WT, const Touchables& touchables) noexcept {
   double sum = X_WT.p.sum() + X_WT.q.coeffs().sum();
   bool touchable = true;

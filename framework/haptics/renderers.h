@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "framework/haptics/renderer.h"
 #include "framework/haptics/tool_renderer.h"
@@ -13,6 +14,9 @@ std::unique_ptr<Renderer> makeRenderer(const World& world);
 
 /// The renderer of the scene's tools, as above.
 std::unique_ptr<ToolRenderer> makeToolRenderer(const World& world);
+
+/// The distances that this renderer looks up, for pictures; none: it looks up none. Thread: view. Errors as above.
+std::vector<ToolField> toolFieldsOf(const World& world);
 
 /// Whether forces keep ToolRenderer's contract. Haptic thread.
 bool keepsContract(const BoundedList<ToolForce>& forces, const Pose& X_WT, const Touchables& touchables) noexcept;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/core/exchange/bounded_list.h"
+#include "framework/haptics/tool_field.h"
 #include "framework/haptics/touchables.h"
 #include "framework/plugin/plugin_loader.h"
 #include "framework/scene/plugin_element.h"
@@ -60,6 +61,8 @@ struct ToolRendererPlugin {
   const char* name;      ///< as in the manifest
   /// May throw (E596). The world stays alive as long as the renderer.
   std::unique_ptr<ToolRenderer> (*create)(const PluginElement& settings, const World& world);
+  /// The distances that such a renderer looks up, by body; null: it looks up none. Thread: view. As create.
+  std::vector<ToolField> (*fields)(const PluginElement& settings, const World& world) = nullptr;
 };
 
 }  // namespace presa

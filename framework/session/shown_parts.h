@@ -25,10 +25,11 @@ enum class ShownPart : std::size_t {
   kCompliance,  ///< deflection of their structure under the present force; key b
   kHeat,        ///< heat of their motors; key w
   kPoints,      ///< places at which bodies hold tools with volume, each with its force; key k
-  kCoupling     ///< where the handles of such tools are; key l
+  kCoupling,    ///< where the handles of such tools are; key l
+  kField        ///< signed distances of the bodies as a tool meets them, on a plane through it; key f
 };
-inline constexpr std::array<std::string_view, 19> kShownPartNames{
+inline constexpr std::array<std::string_view, 20> kShownPartNames{
     "visual", "haptic",  "physics", "patches", "hips",    "proxies",    "cones", "forces", "sleeping", "frames",
-    "plots",  "texture", "offset",  "joints",  "devices", "compliance", "heat",  "points", "coupling"};
+    "plots",  "texture", "offset",  "joints",  "devices", "compliance", "heat",  "points", "coupling", "field"};
 
 }  // namespace presa

@@ -41,13 +41,16 @@ class PointShellRenderer final : public ToolRenderer {
   std::vector<std::unique_ptr<HeldShell>> tools_;  // by device role; null: a fingertip
 };
 
+FieldSettings fieldsWanted(const PluginElement& settings) {
+  return {settings.number("voxel"), static_cast<std::size_t>(settings.number("memory") * static_cast<double>(kMiB)),
+          settings.number("shell_thickness")};
+}
+
 PointShellRenderer::PointShellRenderer(const PluginElement& settings, const World& world)
     : scene_(world.scene),
       law_{settings.number("stiffness"), settings.boolean("printed"),
            static_cast<std::size_t>(settings.number("points_per_tick"))},
-      solids_(solidsOf(world, {settings.number("voxel"),
-                               static_cast<std::size_t>(settings.number("memory") * static_cast<double>(kMiB)),
-                               settings.number("shell_thickness")})),
+      solids_(solidsOf(world, fieldsWanted(settings))),
       X_WB_(solids_.size()),
       friction_(solids_.size()) {
   for (const Solid& solid : solids_) {
@@ -133,11 +136,19 @@ std::string PointShellRenderer::what() const {
   return law_.printed ? text + ", the lectures' law as printed" : text;
 }
 
+std::vector<ToolField> fieldsOf(const PluginElement& settings, const World& world) {
+  std::vector<ToolField> fields;
+  for (const Solid& solid : solidsOf(world, fieldsWanted(settings)))
+    fields.push_back({solid.body, solid.voxel(), [solid](const Vec3& p_B) { return solid.distance(p_B); }});
+  return fields;
+}
+
 const ToolRendererPlugin kPlugin{
     .name = "pointshell",
     .create = [](const PluginElement& settings, const World& world) -> std::unique_ptr<ToolRenderer> {
       return std::make_unique<PointShellRenderer>(settings, world);
-    }};
+    },
+    .fields = fieldsOf};
 
 }  // namespace
 }  // namespace presa

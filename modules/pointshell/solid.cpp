@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
+#include "framework/geometry/long_work.h"
 #include "framework/haptics/touchables.h"
 #include "modules/pointshell/field_cache.h"
 
@@ -18,6 +20,38 @@ constexpr double kVoxelsThick = 4;    // of a thin shell: its inside then has sa
 using SharedField = std::shared_ptr<const DistanceField>;
 
 std::string millimetres(double length) { return std::to_string(1e3 * length) + " mm"; }
+
+/// The fields in use: who draws them gets the same ones. Thread: any.
+class FieldsInUse {
+ public:
+  /// Null: nobody has it.
+  SharedField find(const std::shared_ptr<const TriMesh>& mesh, double thickness, double voxel) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(fields_, [](const Known& known) { return known.field.expired(); });
+    for (const Known& known : fields_) {
+      if (known.voxel == voxel && known.thickness == thickness && known.mesh.lock() == mesh) return known.field.lock();
+    }
+    return nullptr;
+  }
+  void add(const std::shared_ptr<const TriMesh>& mesh, double thickness, double voxel, const SharedField& field) {
+    const std::lock_guard lock(mutex_);
+    fields_.push_back({mesh, thickness, voxel, field});
+  }
+
+ private:
+  struct Known {
+    std::weak_ptr<const TriMesh> mesh;
+    double thickness, voxel;
+    std::weak_ptr<const DistanceField> field;
+  };
+  std::mutex mutex_;
+  std::vector<Known> fields_;
+};
+
+FieldsInUse& fieldsInUse() {
+  static FieldsInUse fields;
+  return fields;
+}
 
 /// Thickness of the shell that an open mesh becomes; 0: a solid.
 double thicknessOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings) {
@@ -42,13 +76,25 @@ double voxelOf(const Body& body, const TriMesh& mesh, const FieldSettings& setti
                               ": a voxel of at most " + millimetres(most) + ", or a thicker shell");
 }
 
-SharedField fieldOf(const Body& body, const TriMesh& mesh, const FieldSettings& settings, std::size_t used) {
+SharedField fieldOf(const Body& body, const std::shared_ptr<const TriMesh>& shared, const FieldSettings& settings,
+                    std::size_t used) {
+  const TriMesh& mesh = *shared;
   const double thickness = thicknessOf(body, mesh, settings), voxel = voxelOf(body, mesh, settings, thickness);
-  const DistanceField::Settings wanted{.voxel = voxel,
-                                       .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes)};
+  const GoOn told = toldToListener("distance field of body '" + body.name + "'");
+  bool stopped = false;
+  const DistanceField::Settings wanted{
+      .voxel = voxel, .max_bytes = settings.max_bytes - std::min(used, settings.max_bytes), .go_on = [&](double share) {
+        return !(stopped = stopped || (told && !told(share)));
+      }};
+  if (SharedField known = fieldsInUse().find(shared, thickness, voxel); known && known->roomBytes() <= wanted.max_bytes)
+    return known;
   DistanceField::Size size;
-  if (std::optional<DistanceField> field = cachedField(mesh, thickness, wanted, size))
-    return std::make_shared<const DistanceField>(*std::move(field));
+  if (std::optional<DistanceField> field = cachedField(mesh, thickness, wanted, size)) {
+    auto made = std::make_shared<const DistanceField>(*std::move(field));
+    fieldsInUse().add(shared, thickness, voxel, made);
+    return made;
+  }
+  if (stopped) throw WorkStopped();
   throw std::invalid_argument("the distance field of body '" + body.name + "' needs " +
                               std::to_string((size.bytes >> 20U) + 1) + " MiB with voxels of " + millimetres(voxel) +
                               ", and " + std::to_string(wanted.max_bytes >> 20U) +
@@ -59,6 +105,10 @@ SharedField fieldOf(const Body& body, const TriMesh& mesh, const FieldSettings& 
 
 double Solid::lowerBound(const Vec3& p_B) const noexcept {
   return field ? field->lowerBound(X_BG.inverseTimes(p_B)) : nearest(primitive, p_B).distance;
+}
+
+double Solid::distance(const Vec3& p_B) const noexcept {
+  return field ? field->at(X_BG.inverseTimes(p_B)) : nearest(primitive, p_B).distance;
 }
 
 SeenSolid::SeenSolid(const Solid& solid, const Pose& X_BT) noexcept
@@ -159,11 +209,11 @@ std::vector<Solid> solidsOf(const World& world, const FieldSettings& settings) {
       solids.push_back({index, {index, -1, *primitive}, nullptr, {}});
       continue;
     }
-    const TriMesh* mesh = world.meshes[b].haptic.get();
+    const std::shared_ptr<const TriMesh>& mesh = world.meshes[b].haptic;
     if (mesh == nullptr) continue;
-    SharedField& field = fields[mesh];
+    SharedField& field = fields[mesh.get()];
     if (!field) {
-      field = fieldOf(body, *mesh, settings, used);
+      field = fieldOf(body, mesh, settings, used);
       used += field->roomBytes();
     }
     solids.push_back({index, {}, field, body.haptic->X_BG});

@@ -21,6 +21,8 @@ struct Solid {
   double voxel() const noexcept { return field ? field->voxel() : 0; }  ///< 0: exact [m]
   /// Never above the distance of the solid itself [m]. Haptic thread; nonblocking.
   double lowerBound(const Vec3& p_B) const noexcept;
+  /// Signed distance of a point in body coordinates, as SeenSolid::distance [m].
+  double distance(const Vec3& p_B) const noexcept;
 };
 
 /// A solid as points of a tool see it, which are given in the tool's frame T. Thread: haptic; nonblocking.
@@ -87,9 +89,10 @@ struct FieldSettings {
   double shell_thickness = 0;  ///< of open meshes [m]; 0: they are refused
 };
 
-/// The touchable bodies of a world. Equal meshes share their field, and fields that took long are kept in the user's
-/// cache. An open mesh is a solid of the points within half of the shell's thickness. Throws std::invalid_argument for an
-/// open mesh without a thickness, for one that its voxels do not resolve, and for fields above their memory. Thread: before a run.
+/// The touchable bodies of a world. Equal meshes share their field as long as anybody has it, and fields that took long are
+/// kept in the user's cache. An open mesh is a solid of the points within half of the shell's thickness. Throws
+/// std::invalid_argument for an open mesh without a thickness, for one that its voxels do not resolve, and for fields
+/// above their memory. Thread: before a run.
 std::vector<Solid> solidsOf(const World& world, const FieldSettings& settings);
 
 }  // namespace presa

@@ -41,6 +41,7 @@ Picture::Picture(std::shared_ptr<const World> world, const RunOptions& options)
       time_bar_(hud_.center(), world_->scene.assembly ? AssemblyPanel::kTop + 34 : -Hud::kHeight / 2 + 74),
       plots_(hud_.left(), *world_),
       tool_marks_(*world_, *space_),
+      field_(*world_, *space_, hud_.left(), inkOn(options.picture.background)),
       joints_(world_->scene, bodies_, *space_, hud_.center(), inkOn(options.picture.background)),
       frame_axes_(*world_, *space_, hud_.center(), inkOn(options.picture.background)),
       ink_(inkOn(options.picture.background)),
@@ -191,6 +192,7 @@ bool Picture::changed(const ViewFrame& frame, const std::vector<FingerView>& fin
     appearance.insert(appearance.end(), {static_cast<double>(finger.mode), shades});
   }
   if (devices_) devices_->appendAppearance(appearance);
+  field_.appendAppearance(appearance);
   if (guides_ && guides_->shown()) appearance.push_back(frame.time);  // they pulsate
   return watch_->update({frame.X_WB, *finger_casters_, others, appearance, kSeen * radius});
 }
@@ -241,6 +243,7 @@ void Picture::show(const ViewFrame& frame, const GroupTimings& timings) {
   showOffsets(parts[ShownPart::kOffset], frame);
   joints_.show(parts[ShownPart::kJoints], frame);
   tool_marks_.show(parts, frame, fingers);
+  field_.show(parts[ShownPart::kField], frame, fingers);
   frame_axes_.show(parts[ShownPart::kFrames], frame);
   updateSubject(frame, fingers);
   const Ball focus = enclose(subject_);

@@ -9,6 +9,7 @@
 #include "modules/view_osg/change_watch.h"
 #include "modules/view_osg/contact_glyphs.h"
 #include "modules/view_osg/felt_relief.h"
+#include "modules/view_osg/field_slice.h"
 #include "modules/view_osg/finger_marks.h"
 #include "modules/view_osg/frame_axes.h"
 #include "modules/view_osg/grain.h"
@@ -77,6 +78,7 @@ class Picture {
   void seenFrom(const CameraPose& pose) {
     hud_.seenFrom(pose);
     joints_.seenFrom(pose);
+    field_.seenFrom(pose);
     frame_axes_.seenFrom(pose);
   }
   /// Simplifies the picture for software rendering.
@@ -116,6 +118,7 @@ class Picture {
   Plots plots_;
   std::optional<OffsetPanel> offsets_;  // once it is shown
   ToolMarks tool_marks_;
+  FieldSlice field_;
   ShownJoints joints_;
   FrameAxes frame_axes_;
   const Ink ink_;

@@ -464,6 +464,38 @@ in vec4 color;
 void main() { gl_FragColor = color; }
 )";
 
+// Distances on a plane: a colour, a fine line each `step`, a strong one at the surface.
+constexpr const char* kSliceVertex = R"(#version 130
+out vec2 at;
+void main() {
+  at = gl_MultiTexCoord0.xy;
+  gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}
+)";
+constexpr const char* kSlice = R"(#version 130
+uniform sampler2D distances;  // [m]
+uniform sampler2D palette;    // from -range to range
+uniform float range;
+uniform float step;
+uniform float opacity;
+in vec2 at;
+float lineAt(float away, float pixel, float width) { return 1.0 - smoothstep(width - 0.5, width + 0.5, away / pixel); }
+void main() {
+  float d = texture(distances, at).r;
+  float pixel = max(fwidth(d), 1e-9);
+  vec3 color = texture(palette, vec2(0.5 + 0.5 * clamp(d / range, -1.0, 1.0), 0.5)).rgb;
+  float away = step * abs(fract(d / step + 0.5) - 0.5);
+  float dense = abs(d) < range - 0.25 * step ? 1.0 - smoothstep(0.1, 0.35, pixel / step) : 0.0;
+  color = mix(color, vec3(0.04, 0.06, 0.10), 0.42 * dense * lineAt(away, pixel, 0.9));
+  color = mix(color, vec3(0.0), lineAt(abs(d), pixel, 2.2));
+  gl_FragColor = vec4(color, opacity);
+}
+)";
+constexpr const char* kLine = R"(#version 130
+uniform vec4 line_color;
+void main() { gl_FragColor = line_color; }
+)";
+
 constexpr const char* kCopyVertex = R"(#version 130
 uniform vec4 part;  // lower left corner and size, as shares of the picture
 out vec2 at;
@@ -566,13 +598,17 @@ osg::ref_ptr<osg::Program> quickSurface(const char* name, Material::Texture text
   return program;
 }
 
-/// Fills a picture in clip space.
-osg::ref_ptr<osg::Program> copying(const char* name, const std::string& fragments) {
+osg::ref_ptr<osg::Program> program(const char* name, const char* vertices, const std::string& fragments) {
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->setName(name);
-  program->addShader(new osg::Shader(osg::Shader::VERTEX, kCopyVertex));
+  program->addShader(new osg::Shader(osg::Shader::VERTEX, vertices));
   program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragments));
   return program;
+}
+
+/// Fills a picture in clip space.
+osg::ref_ptr<osg::Program> copying(const char* name, const std::string& fragments) {
+  return program(name, kCopyVertex, fragments);
 }
 
 }  // namespace
@@ -593,6 +629,8 @@ osg::ref_ptr<osg::Program> skin(bool quick) { return quick ? plain("skin") : sur
 osg::ref_ptr<osg::Program> glyph() { return plain("glyph"); }
 osg::ref_ptr<osg::Program> cone() { return plain("cone"); }
 osg::ref_ptr<osg::Program> land() { return plain("land"); }
+osg::ref_ptr<osg::Program> slice() { return program("slice", kSliceVertex, kSlice); }
+osg::ref_ptr<osg::Program> line() { return program("line", kSliceVertex, kLine); }
 
 osg::ref_ptr<osg::Program> overlay() { return copying("overlay", kOverlay); }
 osg::ref_ptr<osg::Program> moments(int side) {

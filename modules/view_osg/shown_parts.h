@@ -21,7 +21,7 @@ class ShownParts {
 
  private:
   std::array<bool, kShownPartNames.size()> shown_{true,  false, false, false, true, true,  true,  true,  false, false,
-                                                  false, false, false, false, true, false, false, false, false};
+                                                  false, false, false, false, true, false, false, false, false, false};
 };
 
 }  // namespace presa::view

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/core/math/random.h"
-#include "tests/modules/pointshell/one_tool.h"
+#include "tests/support/one_tool.h"
 
 namespace presa::coupling_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "framework/core/diagnostics/refuse.h"
-#include "tests/modules/pointshell/mesh_file.h"
-#include "tests/modules/pointshell/one_tool.h"
+#include "tests/support/mesh_file.h"
+#include "tests/support/one_tool.h"
 
 namespace presa::thin_shell_test {
 namespace {
