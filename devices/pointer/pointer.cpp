@@ -58,6 +58,7 @@ class PointedStylus final : public Device {
   bool points() const override { return true; }
   void point(const PointerState& pointer, const Tick&) noexcept override { stylus_.point(pointer); }
   bool measuresOrientation() const override { return true; }
+  int buttons() const override { return kPickUpButton + 1; }
   FingerInput read(const Tick& tick) noexcept override {
     stylus_.advance(tick);
     return stylus_.sample();

@@ -20,6 +20,7 @@ void Stylus::point(const PointerState& pointer) noexcept {
   wanted_ = pointer.p_WT;
   if (std::isfinite(pointer.yaw)) wanted_yaw_ = pointer.yaw;
   if (std::isfinite(pointer.tilt)) wanted_tilt_ = pointer.tilt;
+  buttons_ = pointer.buttons;
 }
 
 void Stylus::advance(const Tick& tick) noexcept {
@@ -50,6 +51,7 @@ Vec3 Stylus::wantedRate() const noexcept {
 FingerInput Stylus::sample() const noexcept {
   FingerInput sample{tip_.position(), tip_.velocity(), -1, true};
   sample.oriented = true;
+  sample.buttons = buttons_;
   sample.q_WT = turn_.orientation(wantedOrientation());
   sample.w_WT = turn_.rate(wantedRate());
   return sample;

@@ -35,6 +35,7 @@ class Stylus {
   TurnPlant turn_;
   Vec3 wanted_;
   double wanted_yaw_ = 0, wanted_tilt_ = 0;
+  std::uint32_t buttons_ = 0;
   Follower<Vec3> place_;
   Follower<double> yaw_, tilt_;
   Wrench held_;

@@ -13,6 +13,9 @@ struct FrameWish {
   bool clutch = false;       ///< held: the frame slides back under the hand
 };
 
+/// Button of a stylus that key p presses: it puts tools down and picks them up.
+inline constexpr int kPickUpButton = 1;
+
 /// Name of the port that carries a PointerState.
 inline constexpr const char* kPointerPort = "pointer_state";
 
@@ -27,6 +30,7 @@ struct PointerState {
   double tilt = 0;             ///< of a stylus, from upright [rad]
   double wheel = 0;  ///< sum of all steps of closing, unbounded: counts them also where `closing` is at its end
   FrameWish frames;  ///< of the frames of the rig that a user moves
+  std::uint32_t buttons = 0;  ///< pressed now, bits as in FingerInput::buttons
 };
 
 }  // namespace presa

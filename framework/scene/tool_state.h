@@ -10,7 +10,9 @@ namespace presa {
 /// Where a tool is and how its renderer fared, for pictures, recordings and reports.
 struct ToolState {
   bool alive = false;         ///< the device gave a usable sample
+  bool lies = false;          ///< it was put down: no force, and it stays at X_WT
   Pose X_WT;                  ///< tool, held off the bodies
+  Pose X_HT;                  ///< where the hand grips it; the identity until it was put down and picked up again
   std::uint32_t points = 0;   ///< places in contact in this tick
   std::uint32_t coarse = 0;   ///< since the start: ticks that examined the surface more coarsely than it is given
   std::uint32_t late = 0;     ///< since the start: ticks at whose end tool and forces were not in balance yet

@@ -14,7 +14,10 @@ HeldTools::HeldTools(Module& owner, const World& world, const std::vector<Materi
       states_(owner, kToolStatesPort) {
   const std::vector<DeviceRole>& roles = world.scene.devices;
   for (std::size_t d = 0; d < roles.size(); ++d) {
-    if (roles[d].tool) roles_.push_back(d);
+    grips_.emplace_back();
+    if (!roles[d].tool) continue;
+    roles_.push_back(d);
+    if (roles[d].tool->put_down) grips_.back().emplace(*roles[d].tool->put_down, boundsOf(*world.tools[d]));
   }
   states_.value.tools.resize(roles.size());
 }
@@ -34,13 +37,25 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
   out.v_WH = input.v_WH;
   state.f_H_W = state.t_H_W = Vec3::Zero();
   if (!input.valid) {
-    state.alive = false;
+    state.alive = state.lies;
     return;
   }
-  const Pose X_WH{input.p_WH, input.q_WT};
+  const double share = grips_[d] ? grips_[d]->step(input, period, state) : 1;
+  if (state.lies) {
+    state.points = 0;
+    state.depth = 0;
+    return;
+  }
+  // where the hand wants the tool, and how fast
+  Pose X_WH{input.p_WH, input.q_WT};
+  Vec3 v_WH = input.v_WH;
+  if (grips_[d]) {
+    X_WH = X_WH * state.X_HT;
+    v_WH += input.w_WT.cross(X_WH.p - input.p_WH);
+  }
   if (!state.alive) state.X_WT = X_WH;
   forces_.clear();
-  renderer_->touch({d, X_WH, input.v_WH, input.w_WT, period, touchables, materials_}, forces_, state);
+  renderer_->touch({d, X_WH, v_WH, input.w_WT, period, touchables, materials_}, forces_, state);
   state.alive = true;
   if (forces_.lost() > 0) ++all.coverage_lost;
   if (!keepsContract(forces_, state.X_WT, touchables) || !(state.f_H_W + state.t_H_W).allFinite()) [[unlikely]] {
@@ -50,14 +65,15 @@ void HeldTools::touch(std::size_t d, const FingerInput& input, double period, co
     return;
   }
   out.p_WP = out.p_BP = state.X_WT.p;
-  if (!forces_.empty()) write(input, touchables, all, out);
-  out.f_H_W += state.f_H_W;
-  out.t_H_W += state.t_H_W;
+  if (!forces_.empty()) write(input, share, touchables, all, out);
+  out.f_H_W += share * state.f_H_W;
+  out.t_H_W += share * (state.t_H_W + (X_WH.p - input.p_WH).cross(state.f_H_W));
 }
 
-// Sums the forces of one tool, and lists them.
-void HeldTools::write(const FingerInput& input, const Touchables& touchables, ContactExchange& all,
+// Sums the forces of one tool, of which only a share acts, and lists them.
+void HeldTools::write(const FingerInput& input, double share, const Touchables& touchables, ContactExchange& all,
                       FingerContact& out) noexcept {
+  for (ToolForce& one : forces_) one.f_W *= share;
   const auto strongest = std::max_element(forces_.begin(), forces_.end(), [](const ToolForce& a, const ToolForce& b) {
     return a.f_W.squaredNorm() < b.f_W.squaredNorm();
   });

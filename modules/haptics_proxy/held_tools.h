@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "framework/core/state/device_state.h"
 #include "framework/haptics/tool_renderer.h"
 #include "framework/scene/world.h"
+#include "modules/haptics_proxy/tool_grip.h"
 
 namespace presa {
 
@@ -27,9 +29,11 @@ class HeldTools {
  private:
   void touch(std::size_t tool, const FingerInput& input, double period, const Touchables& touchables,
              ContactExchange& out) noexcept;
-  void write(const FingerInput& input, const Touchables& touchables, ContactExchange& all, FingerContact& out) noexcept;
+  void write(const FingerInput& input, double share, const Touchables& touchables, ContactExchange& all,
+             FingerContact& out) noexcept;
 
-  std::vector<std::size_t> roles_;  // of the tools
+  std::vector<std::size_t> roles_;                // of the tools
+  std::vector<std::optional<ToolGrip>> grips_{};  // by role; none: always held
   const std::vector<Material>& materials_;
   std::unique_ptr<ToolRenderer> renderer_;
   BoundedList<ToolForce> forces_;  // of one tool in its tick

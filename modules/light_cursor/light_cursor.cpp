@@ -26,14 +26,12 @@ class LightCursor final : public ToolRenderer {
   void place(const ToolInput& input) noexcept;
   /// One tool of the scene.
   struct Held {
-    Held(const Cursor& made, std::size_t contacts) : cursor(made), last(contacts) {}
     Cursor cursor;
-    BoundedList<ToolForce> last;  // of the last tick with contacts; places count from the tool's origin
-    int bounce = kBounce;         // ticks since then
+    int bounce = kBounce;  // ticks since the last one with contacts
   };
   /// The contacts of this tick; false: there are none.
   bool list(const ToolCoupling& coupling, const Cursor& cursor, BoundedList<ToolForce>& forces) noexcept;
-  void write(const ToolInput& input, Held& held, const Vec3& p_WT, BoundedList<ToolForce>& forces) noexcept;
+  void write(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces, ToolState& state) noexcept;
 
   const Scene& scene_;
   CursorLaw law_;
@@ -65,7 +63,7 @@ LightCursor::LightCursor(const PluginElement& settings, const World& world)
     tools_[d] = convexTool(world, d, partSettings(settings));
     const Cursor cursor(tools_[d], bodies_, friction_, scene_.devices[d].tool->coupling,
                         massProperties(*world.tools[d]), law_);
-    held_.back() = std::make_unique<Held>(cursor, law_.max_contacts);
+    held_.back() = std::make_unique<Held>(Held{cursor});
   }
 }
 
@@ -86,7 +84,7 @@ void LightCursor::touch(const ToolInput& input, BoundedList<ToolForce>& forces, 
     held.bounce = kBounce;
   }
   const Cursor::Step step = held.cursor.step(input, X_WB_, state.X_WT);
-  write(input, held, state.X_WT.p, forces);
+  write(input, held, forces, state);
   state.points = static_cast<std::uint32_t>(forces.size());
   state.coarse += step.whole ? 0 : 1;
   state.late += step.exact ? 0 : 1;
@@ -120,15 +118,20 @@ bool LightCursor::list(const ToolCoupling& coupling, const Cursor& cursor, Bound
   return true;
 }
 
-// The hand feels the spring of the handle, so the forces on the bodies add up to it: the tool's inertia is nobody's. Where
-// a jam comes free, so light a tool bounces for some ticks, while that spring is still tight; the bodies bear it on.
-void LightCursor::write(const ToolInput& input, Held& held, const Vec3& p_WT, BoundedList<ToolForce>& forces) noexcept {
-  const ToolCoupling& coupling = scene_.devices[input.tool].tool->coupling;
-  held.bounce = list(coupling, held.cursor, forces) ? 0 : std::min(kBounce, held.bounce + 1);
-  if (held.bounce == kBounce) return;
-  (held.bounce == 0 ? held.last : forces) = held.bounce == 0 ? forces : held.last;
-  balanceForces(forces, -(1 - static_cast<double>(held.bounce) / kBounce) * held.cursor.ofHandle());
-  for (ToolForce& one : forces) one.p_W += p_WT;
+// The hand feels the spring of the handle, and the forces on the bodies add up to it. Where a jam comes free, so light a
+// tool bounces for some ticks, while that spring is still tight: then it accelerates the tool alone.
+void LightCursor::write(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces, ToolState& state) noexcept {
+  const Vec6& of_handle = held.cursor.ofHandle();
+  const bool touches = list(scene_.devices[input.tool].tool->coupling, held.cursor, forces);
+  held.bounce = touches ? 0 : std::min(kBounce, held.bounce + 1);
+  if (touches) {
+    balanceForces(forces, -of_handle);
+    for (ToolForce& one : forces) one.p_W += state.X_WT.p;
+  } else if (held.bounce < kBounce) {
+    const double part = 1 - static_cast<double>(held.bounce) / kBounce;
+    state.f_H_W = -part * of_handle.head<3>();
+    state.t_H_W = -part * (of_handle.tail<3>() + (state.X_WT.p - input.X_WH.p).cross(Vec3(of_handle.head<3>())));
+  }
 }
 
 std::string LightCursor::what() const {

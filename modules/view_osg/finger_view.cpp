@@ -41,7 +41,10 @@ void placeTool(const World& world, const ViewFrame& frame, std::size_t i, Finger
   finger.has_volume = true;
   finger.friction = finger.friction_static = 0;  // it touches on many sides: no cone around a common normal
   finger.radius = radiusOf(*world.tools[i]);
+  const Pose X_WH{finger.p_WH, finger.q_WT};
   finger.X_WT = known ? frame.tools->tools[i].X_WT : Pose{finger.p_WP, finger.q_WT};
+  finger.X_WT_wanted = known ? X_WH * frame.tools->tools[i].X_HT : X_WH;
+  finger.lies = known && frame.tools->tools[i].lies;
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ struct FingerView {
   Quat q_WT = Quat::Identity();
   bool has_volume = false;      ///< a tool: its mesh is drawn at X_WT instead of a fingertip
   Pose X_WT;                    ///< of the tool, held off the bodies
+  Pose X_WT_wanted;             ///< of the tool, where the hand wants it
+  bool lies = false;            ///< the tool was put down
   Vec3 p_WH = Vec3::Zero();     ///< HIP [m]
   Vec3 p_WP = Vec3::Zero();     ///< proxy, relative to the body as drawn [m]
   Vec3 p_WC = Vec3::Zero();     ///< touched point, relative to the body as drawn [m]

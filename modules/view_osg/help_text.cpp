@@ -15,6 +15,7 @@ HelpLines pairLines() {
           {"arrows, PageUp, PageDown", "right, left, away, near, up, down"},
           {"+  -", "close and open; tilt"},
           {"q  e", "turn about the vertical"},
+          {"p", "put a tool down, pick it up"},
           {"Shift + key", "a fifth of the step"}};
 }
 
@@ -64,7 +65,7 @@ HelpLines partLines() {
           {"g  t", "plots of the last seconds, felt texture"},
           {"o  j", "offsets of the fingers, joints"},
           {"d  b  w", "devices, their deflection, their heat"},
-          {"k  l", "contacts of a tool, its handle"}};
+          {"k  l  f", "contacts of a tool, its handle, the field"}};
 }
 
 }  // namespace

@@ -31,6 +31,10 @@ void PointerControl::begin(const DeviceState& device) {
 }
 
 void PointerControl::heed(const DeviceState& device) {
+  if (pressed_ > 0 && --pressed_ == 0) {
+    state_.buttons = 0;
+    changed();
+  }
   const std::optional<Vec3> now = middle(device);
   if (!begun_ || !now) return;
   const double z = std::clamp(state_.p_WT.z(), now->z() - kLead, now->z() + kLead);
@@ -59,6 +63,13 @@ void PointerControl::move(double right, double away, double up, const CameraCont
 void PointerControl::turn(double angle) {
   if (!begun_) return;
   state_.yaw += angle;
+  changed();
+}
+
+void PointerControl::press() {
+  if (!begun_) return;
+  state_.buttons = 1U << kPickUpButton;
+  pressed_ = kPressed;
   changed();
 }
 

@@ -17,6 +17,7 @@ class PointerControl {
   static constexpr double kCloseStep = 0.04;               ///< per wheel notch or key
   static constexpr double kLead = 0.1;                     ///< max vertical distance of target and fingers [m]
   static constexpr double kMaxTilt = 1.4;                  ///< [rad]
+  static constexpr int kPressed = 3;                       ///< frames for which a key presses a button
 
   /// Indices into DeviceState::fingers.
   explicit PointerControl(std::vector<std::size_t> fingers) : fingers_(std::move(fingers)) {}
@@ -24,7 +25,7 @@ class PointerControl {
   /// Takes the start position as soon as all fingers deliver samples; no effect afterwards.
   void begin(const DeviceState& device);
   /// Keeps the target within kLead of the fingers' height, so that a drag against the ground, or against help, need not
-  /// be undone by one of the same length. Call once per frame.
+  /// be undone by one of the same length; releases a button. Call once per frame.
   void heed(const DeviceState& device);
 
   /// Mouse drag in halves of the picture's height: moves the pair in a level plane, under the mouse.
@@ -36,6 +37,8 @@ class PointerControl {
   void turn(double angle);
   /// Wheel notches or keys: a pair closes by kCloseStep, a stylus tilts by kTurnStep.
   void close(double steps);
+  /// Presses the button kPickUpButton for some frames.
+  void press();
 
   const PointerState& state() const { return state_; }
 
@@ -46,6 +49,7 @@ class PointerControl {
   std::vector<std::size_t> fingers_;
   bool begun_ = false;
   bool stylus_ = false;  ///< the tool measures its orientation
+  int pressed_ = 0;      ///< frames until the button is released
   PointerState state_;
 };
 

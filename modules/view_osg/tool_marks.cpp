@@ -88,11 +88,12 @@ void ToolMarks::showHandles(const std::vector<FingerView>& fingers) {
   for (std::size_t i = 0; i < handle_of_.size() && i < fingers.size(); ++i) {
     if (!handle_of_[i].copy) continue;
     const FingerView& view = fingers[i];
-    const Vec3 way = view.p_WH - view.X_WT.p;
-    const bool apart = view.valid && way.norm() > 1e-5;
-    setShown(*handle_of_[i].copy, view.valid);
+    const bool held = view.valid && !view.lies;
+    const Vec3 way = view.X_WT_wanted.p - view.X_WT.p;
+    const bool apart = held && way.norm() > 1e-5;
+    setShown(*handle_of_[i].copy, held);
     setShown(*handle_of_[i].way, apart);
-    handle_of_[i].copy->setMatrix(toOsg(Pose{view.p_WH, view.q_WT}));
+    handle_of_[i].copy->setMatrix(toOsg(view.X_WT_wanted));
     if (apart) handle_of_[i].way->setMatrix(alongZ(view.X_WT.p, way, {kWayRadius, kWayRadius, way.norm()}));
   }
 }

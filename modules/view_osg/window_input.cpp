@@ -27,7 +27,7 @@ bool has(const Event& event, int mask) { return (event.getModKeyMask() & mask) !
 /// A key that switches something over, or asks for it once: held down, it does so once, while the others repeat.
 bool switches(int key) {
   return key == Event::KEY_Return || key == Event::KEY_Escape ||
-         (key > 0 && key < 128 && std::strchr("0123456789bcdghjmostuw? ", key) != nullptr);
+         (key > 0 && key < 128 && std::strchr("0123456789bcdfghjklmopstuw? ", key) != nullptr);
 }
 
 }  // namespace
@@ -182,10 +182,11 @@ bool WindowInput::key(const Event& event) {
                               : key == 'b' ? ShownPart::kCompliance
                                            : ShownPart::kHeat);
       return true;
+    case 'f':
     case 'k':
     case 'l':
       if (controls_.visitor) return true;
-      picture_.parts().toggle(key == 'k' ? ShownPart::kPoints : ShownPart::kCoupling);
+      picture_.parts().toggle(key == 'f' ? ShownPart::kField : key == 'k' ? ShownPart::kPoints : ShownPart::kCoupling);
       return true;
     case 'u':
       inputs.undos += controls_.undo ? 1 : 0;
@@ -287,6 +288,9 @@ bool WindowInput::pairKey(int key, bool fine) {
     case '_':
     case Event::KEY_KP_Subtract:
       pair.close(-1);
+      return true;
+    case 'p':
+      pair.press();
       return true;
     case 'q':
       pair.turn(share * PointerControl::kTurnStep);

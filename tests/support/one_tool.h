@@ -59,6 +59,7 @@ class OneTool {
     if (index_ == 0) input.v_WH = Vec3::Zero();
     last_ = X_WH.p;
     input.oriented = true;
+    input.buttons = buttons;
     input.q_WT = X_WH.q;
     device_->out.value.fingers[0] = input;
     graph_.step(RateGroup::kHaptic, {index_, 1e-3 * static_cast<double>(index_), 1e-3});
@@ -74,6 +75,8 @@ class OneTool {
   const ContactExchange& all() const { return sink_->contact.value(); }
   ObjectState& objects() { return objects_->out.value; }
   const World& world() const { return *world_; }
+
+  std::uint32_t buttons = 0;  ///< pressed in the next ticks
 
  private:
   template <class T>
