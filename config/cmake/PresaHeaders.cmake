@@ -10,7 +10,7 @@ endforeach()
 list(APPEND presa_headers framework/session/module_plugin.h framework/session/view_part.h
   apps/studies/cost/metric.h apps/studies/cost/trace.h
   experiments/runner/psychophysics/axis.h experiments/runner/psychophysics/method.h experiments/runner/psychophysics/method_plugin.h)
-foreach(support IN ITEMS alloc_lock_guard body_effect_field drawn_part effect_field friction_track lockstep_run method_run rendered_body)
+foreach(support IN ITEMS alloc_lock_guard body_effect_field drawn_part effect_field friction_track held_tool lockstep_run method_run rendered_body)
   list(APPEND presa_headers tests/support/${support}.h)
 endforeach()
 

@@ -71,6 +71,13 @@ renderer() {
   refused "scene/lift.xml:7:12: error[E116]" "${bare[@]}" presa check scene/lift.xml
 }
 
+tool_renderer() {
+  project ball_tool
+  shows "$("${found[@]}" presa explain scene/press.xml)" "hold tools off the bodies as balls (ball_tool)"
+  shows "$("${found[@]}" presa plugins)" "ball_tool 0.1.0 (tool renderer), $PWD/build/lib/presa"
+  refused "scene/press.xml:5:12: error[E116]" "${bare[@]}" presa check scene/press.xml
+}
+
 device() {
   project fingertip
   shows "$("${found[@]}" presa explain scene/lift.xml)" "presa_fingertip.so"

@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 enum Code { kBadName = 597, kCannotWrite = 598 };
 
+constexpr const char* kToolRenderer = "tool_renderer";
+
 struct NewArguments {
   std::string kind, name, folder = ".";
 };
@@ -119,7 +121,7 @@ std::vector<NewFile> projectOf(const NewArguments& arguments) {
   add(fromTemplates(arguments.kind, arguments));
   if (arguments.kind == "experiment") {
     add(stiffnessExperiment(arguments));
-  } else {
+  } else if (arguments.kind != kToolRenderer) {  // its template has a scene of its own
     files.push_back({"scene/lift.xml", liftingScene(arguments)});
     if (arguments.kind != "device") add(scriptedFingers());
   }
@@ -168,7 +170,7 @@ std::string prefixArgument() {
   return prefix == "/usr" || prefix == "/usr/local" ? "" : " -DCMAKE_PREFIX_PATH=" + prefix.string();
 }
 
-const char* nextSteps(const std::string& kind) {
+std::string nextSteps(const std::string& kind) {
   if (kind == "experiment")
     return "See its trials, and let simulated subjects do them:\n"
            "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
@@ -178,10 +180,11 @@ const char* nextSteps(const std::string& kind) {
     return "See it over processor time:\n"
            "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
            "  presa cost scene/lift.xml --quick --metric ${PWD##*/}\n";
+  const std::string scene = kind == kToolRenderer ? "scene/press.xml" : "scene/lift.xml";
   return "See it in the scene, and feel it:\n"
          "  export PRESA_PLUGIN_PATH=$PWD/build/lib/presa\n"
-         "  presa explain scene/lift.xml\n"
-         "  presa run scene/lift.xml --view window\n";
+         "  presa explain " +
+         scene + "\n  presa run " + scene + " --view window\n";
 }
 
 int writeNew(const NewArguments& arguments) {
@@ -197,7 +200,7 @@ int writeNew(const NewArguments& arguments) {
       "  cd %s\n"
       "  cmake -B build%s && cmake --build build && ctest --test-dir build\n"
       "%s",
-      project.c_str(), prefix.c_str(), nextSteps(arguments.kind));
+      project.c_str(), prefix.c_str(), nextSteps(arguments.kind).c_str());
   if (prefix.ends_with("PREFIX"))
     std::printf("Presa is not installed: cmake --install build --prefix PREFIX, in its source tree, comes first.\n");
   return kExitOk;
@@ -213,18 +216,20 @@ void addNew(Command app, int& status) {
           "KIND", arguments->kind,
           "effect: a force on the fingertips, with its reaction on a body; friction: a law of friction between fingers "
           "and bodies; body: a force on a body in the dynamics, such as drag; surface: a texture or a layer of a body; "
-          "renderer: where surfaces hold the fingertips; device: a driver that measures fingertips and renders forces; "
+          "renderer: where surfaces hold the fingertips; tool_renderer: where bodies hold tools with volume; device: a "
+          "driver that measures fingertips and renders forces; "
           "module: a part of the graph with a rate and ports; view: something drawn in the picture; "
           "metric: an error that presa cost draws over time; experiment: a comparison of two stiffnesses with a method "
           "of "
           "its own")
       .required()
-      .oneOf({"effect", "body", "friction", "surface", "renderer", "device", "module", "view", "metric", "experiment"});
+      .oneOf({"effect", "body", "friction", "surface", "renderer", kToolRenderer, "device", "module", "view", "metric",
+              "experiment"});
   command.option("NAME", arguments->name, "of the plug-in and its folder, e.g. soft_magnet").required();
   command.option("--in", arguments->folder, "folder in which the project's folder is made (default: this one)");
   command.footer(
-      "The project builds against an installed Presa (find_package(Presa)), and its test lifts a cube with the new\n"
-      "plug-in. docs/plugins.md follows one from here to the first touch.\n"
+      "The project builds against an installed Presa (find_package(Presa)), and its test lifts or presses a cube with\n"
+      "the new plug-in. docs/plugins.md follows one from here to the first touch.\n"
       "Example:  presa new effect soft_magnet");
   command.action([arguments, &status] { status = writeNew(*arguments); });
 }
