@@ -11,12 +11,14 @@ const char* const kStyle = R"CSS(
   --bg: #ffffff; --card: #f6f7f9; --ink: #1b1f24; --soft: #5b6570; --rule: #dde1e6; --grid: #e7eaee;
   --band0: #eef3f8; --band1: #ffffff; --good: #0b7a53; --bad: #b3261e; --neutral: #44546a;
   --finger: #0b62a8; --proxy: #5aa9dc; --object: #c75a00; --force: #0b62a8; --tangential: #e08a00; --state: #1b1f24;
-  --limit: #a0522d; --s0: #e8a33d; --s1: #1f8a8c; --s2: #3d2f86; --s3: #b0416e; --s4: #6a7d2c; --s5: #555f6b; }
+  --limit: #a0522d; --s0: #e8a33d; --s1: #1f8a8c; --s2: #3d2f86; --s3: #b0416e; --s4: #6a7d2c; --s5: #555f6b;
+  --r0: #bcde28; --r1: #86d44a; --r2: #56c667; --r3: #32b47b; --r4: #21a187; --r5: #228e8d; --r6: #297a8e; --r7: #32668e; --r8: #3c508a; --r9: #443982; --r10: #481f70; --r11: #440154; }
 @media screen and (prefers-color-scheme: dark) { :root {
   --bg: #14171b; --card: #1d2127; --ink: #e6e9ed; --soft: #9aa5b1; --rule: #343b44; --grid: #2a3038;
   --band0: #1c232b; --band1: #14171b; --good: #4cc38a; --bad: #ff8a80; --neutral: #a9b8cc;
   --finger: #5aa9e6; --proxy: #9fd0f5; --object: #ff9d4d; --force: #5aa9e6; --tangential: #ffc266; --state: #e6e9ed;
-  --limit: #d9a066; --s0: #ffd48a; --s1: #3fbfb6; --s2: #8a7cf0; --s3: #e57ba4; --s4: #b4c86a; --s5: #a3adb8; } }
+  --limit: #d9a066; --s0: #ffd48a; --s1: #3fbfb6; --s2: #8a7cf0; --s3: #e57ba4; --s4: #b4c86a; --s5: #a3adb8;
+  --r0: #fde725; --r1: #d1e21c; --r2: #a3db37; --r3: #77d053; --r4: #51c46a; --r5: #33b57a; --r6: #22a685; --r7: #20958b; --r8: #24858e; --r9: #2b758e; --r10: #33648e; --r11: #3b528b; } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--bg); color: var(--ink); font: 15px/1.5 system-ui, "Liberation Sans", sans-serif; }
 main { max-width: 1120px; margin: 0 auto; padding: 28px 20px 60px; }
@@ -82,6 +84,10 @@ svg .work.other { fill-opacity: .35; } svg .work.empty { fill: var(--bg); fill-o
 svg .pareto { fill: none; stroke: var(--force); stroke-width: 1.5; } svg .floor { fill: var(--band0); } svg .known { fill: var(--limit); }
 svg .s0 { stroke: var(--s0); --fill: var(--s0); } svg .s1 { stroke: var(--s1); --fill: var(--s1); } svg .s2 { stroke: var(--s2); --fill: var(--s2); }
 svg .s3 { stroke: var(--s3); --fill: var(--s3); } svg .s4 { stroke: var(--s4); --fill: var(--s4); } svg .s5 { stroke: var(--s5); --fill: var(--s5); }
+svg .r0 { stroke: var(--r0); --fill: var(--r0); } svg .r1 { stroke: var(--r1); --fill: var(--r1); } svg .r2 { stroke: var(--r2); --fill: var(--r2); }
+svg .r3 { stroke: var(--r3); --fill: var(--r3); } svg .r4 { stroke: var(--r4); --fill: var(--r4); } svg .r5 { stroke: var(--r5); --fill: var(--r5); }
+svg .r6 { stroke: var(--r6); --fill: var(--r6); } svg .r7 { stroke: var(--r7); --fill: var(--r7); } svg .r8 { stroke: var(--r8); --fill: var(--r8); }
+svg .r9 { stroke: var(--r9); --fill: var(--r9); } svg .r10 { stroke: var(--r10); --fill: var(--r10); } svg .r11 { stroke: var(--r11); --fill: var(--r11); }
 svg .ink { stroke: var(--ink); --fill: var(--ink); } svg .bar { fill: var(--fill); stroke: none; } svg .symbol { fill: var(--fill); fill-opacity: .55; }
 svg .area { fill: var(--fill); fill-opacity: .18; stroke: none; } svg .error { stroke: var(--ink); stroke-width: 1.1; fill: none; } svg .dashed { stroke-dasharray: 6 4; }
 svg [data-name]:hover { stroke: var(--ink); stroke-width: 2.5; }

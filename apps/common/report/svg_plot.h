@@ -87,6 +87,10 @@ struct ScatterFigure {
   std::vector<Mark> marks;
 };
 
+/// Colours that are told apart, s0 to s5, and after kRamp an ordered ramp, r0 to r11, whose lightness rises or falls
+/// throughout: for more values than there are colours.
+inline constexpr int kColors = 6, kRamp = 100, kRampSteps = 12;
+
 /// One setting of a work–precision diagram.
 struct WorkPoint {
   Point at;                      ///< cost, error; an error of 0 lies on the bottom edge
@@ -94,7 +98,7 @@ struct WorkPoint {
   std::string label;             ///< shown under the pointer
   std::string css_class;         ///< "usual", "front", "other"
   bool failed = false;           ///< a cross on the top edge
-  int color = -1, shape = 0;     ///< instead of the circle of the class: s0 to s5, and svg::symbolPath
+  int color = -1, shape = 0;     ///< instead of the circle of the class: as above, and svg::symbolPath
   std::string tag{};             ///< direct label; empty: none
 };
 /// Error over cost, both logarithmic.

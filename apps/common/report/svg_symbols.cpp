@@ -7,7 +7,10 @@
 
 namespace presa::svg {
 
-std::string colorClass(int color) { return color < 0 ? "ink" : "s" + std::to_string(color % 6); }
+std::string colorClass(int color) {
+  if (color >= kRamp) return "r" + std::to_string(std::min(color - kRamp, kRampSteps - 1));
+  return color < 0 ? "ink" : "s" + std::to_string(color % kColors);
+}
 
 std::string symbolPath(double x, double y, double r, int shape) {
   const auto at = [&](double dx, double dy) { return px(x + dx) + " " + px(y + dy); };

@@ -10,7 +10,7 @@ namespace presa::svg {
 /// Circle, square, triangle, diamond, down triangle, cross: distinguishable without colour.
 std::string symbolPath(double x, double y, double r, int shape);
 
-/// "s0" … "s5"; below 0: "ink".
+/// "s0" … "s5", from kRamp on "r0" … "r11"; below 0: "ink".
 std::string colorClass(int color);
 
 struct Box {

@@ -35,7 +35,9 @@ void JobProgress::expect(double seconds_left) {
 
 void JobProgress::show() {
   const std::int64_t now = monotonicNs();
-  if (now < next_ns_) return;
+  const std::size_t tenths = jobs_ > 0 ? 10 * done_ / jobs_ : 0;
+  if (now < next_ns_ || (!terminal_ && tenths == said_tenths_)) return;
+  said_tenths_ = tenths;
   next_ns_ = now + (terminal_ ? 100'000'000 : 2'000'000'000);
   const double elapsed = static_cast<double>(now - start_ns_) * 1e-9;
   std::string line = format("%zu of %zu", done_, jobs_);

@@ -7,8 +7,8 @@
 
 namespace presa::terminal {
 
-/// Progress of many jobs on stderr, with the remaining time: one refreshed line on a terminal, a plain line every two
-/// seconds elsewhere. During its lifetime Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one
+/// Progress of many jobs on stderr, with the remaining time: one refreshed line on a terminal, elsewhere a plain line
+/// for every tenth of the jobs, at most every two seconds. During its lifetime Ctrl-C and SIGTERM are noted instead of ending the process. Thread: main; one
 /// at a time.
 class JobProgress {
  public:
@@ -27,11 +27,13 @@ class JobProgress {
   static bool interrupted() noexcept { return Interruption::came(); }
 
  private:
+  static constexpr std::size_t kNever = ~std::size_t{0};
   std::size_t jobs_, done_ = 0;
   std::string last_;
   bool terminal_, shown_ = false;
   std::int64_t start_ns_, next_ns_ = 0;
-  double expected_end_ = -1;  ///< [s] since the start; negative: unknown
+  std::size_t said_tenths_ = kNever;  ///< of the jobs, where there is no terminal
+  double expected_end_ = -1;          ///< [s] since the start; negative: unknown
   Interruption interruption_;
 };
 
