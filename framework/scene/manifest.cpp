@@ -24,9 +24,17 @@ enum ManifestCode { kNoManifest = 590, kBroken = 593, kTaken = 594, kAgainstKind
 constexpr const char* kPrefix = "presa_";
 
 Manifest::Attribute readAttribute(const xml::Element& element) {
-  return {element.attribute("name"),  element.attribute("type"),        element.attribute("unit"),
-          element.attribute("about"), !element.hasAttribute("default"), element.attribute("default"),
-          element.attribute("above"), element.attribute("min"),         element.attribute("max")};
+  return {element.attribute("name"),
+          element.attribute("type"),
+          element.attribute("unit"),
+          element.attribute("about"),
+          !element.hasAttribute("default"),
+          element.attribute("default"),
+          element.attribute("above"),
+          element.attribute("min"),
+          element.attribute("max"),
+          element.attribute("finer"),
+          xml::splitWords(element.attribute("tried"))};
 }
 
 using Place = Manifest::Place;
@@ -161,9 +169,22 @@ void checkFiles(const Manifest& manifest, const Manifest::Element& element, Diag
   }
 }
 
+/// A study of accuracy turns numbers only.
+void checkFiner(const Manifest& manifest, const Manifest::Element& element, Diagnostics& diagnostics) {
+  for (const Manifest::Attribute& attribute : element.attributes) {
+    if (attribute.finer.empty() ? attribute.tried.empty() : attribute.type == "number") continue;
+    diagnostics.error(
+        kAgainstKind, element.where,
+        "<" + element.name + " " + attribute.name + "> of the " + nameOf(manifest.kind) + " '" + manifest.name +
+            "' has " + (attribute.finer.empty() ? "tried=\"…\" without finer=\"…\"" : "finer=\"…\", but is no number"),
+        "finer=\"up\" or \"down\" says which numbers are more accurate, tried=\"…\" which ones a study tries");
+  }
+}
+
 void checkElements(const Manifest& manifest, Diagnostics& diagnostics) {
   for (const Manifest::Element& element : manifest.elements) {
     checkPlace(manifest, element, diagnostics);
+    checkFiner(manifest, element, diagnostics);
     if (manifest.kind == PluginKind::kForceEffect || manifest.kind == PluginKind::kBodyEffect)
       checkBound(manifest, element, diagnostics);
     if (isRenderer(manifest)) checkSettings(manifest, element, diagnostics);

@@ -25,6 +25,8 @@ struct Manifest {
     std::string above,          ///< exclusive minimum of a number; empty: none
         min,                    ///< minimum of a number; empty: none
         max;                    ///< maximum of a number; empty: none
+    std::string finer = {};  ///< "up", "down": a number whose larger, smaller values are more accurate; empty: neither
+    std::vector<std::string> tried = {};  ///< where it has a direction: values for a study of accuracy, coarse to fine
   };
   /// An element that the plug-in adds to scenes or experiments.
   struct Element {
@@ -73,7 +75,7 @@ struct Manifest {
 /// Errors: E593 a broken manifest or one whose name is not that of its file, E594 an element that Presa or another
 /// plug-in brings already, E595 what a plug-in of its kind may not have or must have: the place of an element, the
 /// required max_force or max_torque of a force or body effect, the defaults of a renderer's settings, the rate of a
-/// module; a method that names a file.
+/// module; a method that names a file; a direction of accuracy that is not a number's, or without values to try.
 std::vector<Manifest> readManifests(const std::vector<std::string>& folders, Diagnostics& diagnostics);
 
 /// The manifests of this process, read once. Throws InputError with all errors. Thread: any.

@@ -26,19 +26,19 @@ const std::string* onlyDifference(const Setting& a, const Setting& b) {
   return found;
 }
 
-std::string valueOf(const Setting& setting, const std::string& factor) {
-  for (const auto& [name, value] : setting.choices) {
-    if (name == factor) return value;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::optional<double> numberIn(const std::string& text) {
   double value = 0;
   const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   return status == std::errc{} && rest == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::string valueOf(const Setting& setting, const std::string& factor) {
+  for (const auto& [name, value] : setting.choices) {
+    if (name == factor) return value;
+  }
+  return {};
 }
 
 std::string setOptions(const std::vector<std::string>& sets) {
@@ -87,22 +87,6 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
     return place(a.factor) < place(b.factor);
   });
   return gains;
-}
-
-std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& factor) {
-  double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
-  for (const Outcome& outcome : result.outcomes) {
-    const std::string* difference = onlyDifference(result.outcomes.front().setting, outcome.setting);
-    const bool along = &outcome == &result.outcomes.front() || (difference != nullptr && *difference == factor);
-    const std::optional<double> value = numberIn(valueOf(outcome.setting, factor));
-    const auto error = outcome.error.find(metric);
-    if (!along || !value || !(*value > 0) || !outcome.failure.empty() || error == outcome.error.end()) continue;
-    if (!(error->second > 0)) continue;
-    const double x = std::log(*value), y = std::log(error->second);
-    n += 1, x_sum += x, y_sum += y, xx += x * x, xy += x * y;
-  }
-  const double spread = n * xx - x_sum * x_sum;
-  return n >= 2 && spread > 0 ? std::optional(-(n * xy - x_sum * y_sum) / spread) : std::nullopt;
 }
 
 }  // namespace presa::cost

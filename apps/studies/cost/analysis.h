@@ -5,7 +5,7 @@
 
 #include "apps/studies/cost/front.h"
 
-/// Analysis of a study's results beside its front: gain per factor, order of convergence, sentences.
+/// Analysis of a study's results beside its front: gain per factor, sentences.
 namespace presa::cost {
 
 /// Effect of changing one factor from its default to another value.
@@ -18,10 +18,6 @@ struct FactorGain {
 };
 /// Of every factor but conditions.
 std::vector<FactorGain> factorGains(const Result& result, const std::string& metric);
-
-/// Observed order of convergence: minus the least-squares slope of log(error) over log(value) of a numeric factor, with
-/// all other factors at their defaults.
-std::optional<double> observedOrder(const Result& result, const std::string& metric, const std::string& factor);
 
 /// The sentences at the end of the report: at most one per rule.
 std::vector<std::string> sentences(const Result& result);
@@ -37,6 +33,9 @@ std::string lowered(std::string title);
 
 /// The sets as options to paste into a shell: "--set rates/dynamics=100".
 std::string setOptions(const std::vector<std::string>& sets);
+
+/// The value that the setting has for a factor; empty: it has none.
+std::string valueOf(const Setting& setting, const std::string& factor);
 
 /// Number and unit, such as "0.0123 N".
 std::string withUnit(double value, const std::string& unit);

@@ -13,12 +13,15 @@
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
 #include "apps/studies/cost/condition_factor.h"
+#include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/forecast.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/machine_turn.h"
 #include "apps/studies/cost/measure.h"
 #include "apps/studies/cost/meshes.h"
 #include "apps/studies/cost/metrics.h"
+#include "apps/studies/cost/orders.h"
+#include "apps/studies/cost/reference_levels.h"
 #include "apps/studies/cost/run_store.h"
 #include "experiments/study/jobs.h"
 #include "framework/core/schedule/clock.h"
@@ -100,6 +103,9 @@ class Driver {
   StudySpec spec(const Task& task) const;
   void work(const std::vector<Task>& tasks, int workers, const std::string& what);
   void watchFirst();
+  Task levelTask(std::size_t level, const FinerLimits& limits) const;
+  bool runsWith(std::size_t level, const FinerLimits& limits);
+  void settleLevels(std::size_t levels);
   void refineReference();
   void timeAll(int repeat);
   Timing timing(const Task& task) const;
@@ -116,7 +122,8 @@ class Driver {
   bool keeps_killed_ = true;  ///< a run that was killed is a result of its setting
   std::string rig_;
   std::unique_ptr<RunStore> store_;
-  std::vector<std::uint64_t> level_hash_;
+  std::vector<std::uint64_t> level_hash_;  ///< as planned
+  FinerLimits limits_;                     ///< of the reference's knobs
   Result result_;
   bool stopped_ = false;
   std::unique_ptr<terminal::JobProgress> progress_;
@@ -126,6 +133,7 @@ class Driver {
 void Driver::prepare() {
   const Identity identity = identityOf(study_);
   level_hash_ = identity.levels;
+  limits_ = noLimits(study_);
   if (!identity.rig.empty()) {
     rig_ = study_.folder + "/rig.xml";
     writeFileAtomically(rig_, identity.rig);
@@ -251,22 +259,55 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
 void Driver::watchFirst() {
   std::vector<Task> tasks;
   for (std::size_t level = 0; level < std::min(kFirstLevels, study_.reference.size()); ++level)
-    if (shard_.holds(level)) tasks.push_back({study_.reference[level], level_hash_[level]});
+    if (shard_.holds(level)) tasks.push_back(levelTask(level, limits_));
   for (std::size_t i = 0; i < study_.settings.size(); ++i) {
     if (runs(i)) tasks.push_back({study_.settings[i].sets, study_.settings[i].scene_hash});
   }
   work(tasks, options_.workers, "accuracy");
 }
 
+Task Driver::levelTask(std::size_t level, const FinerLimits& limits) const {
+  std::vector<std::string> sets = setsOfLevel(study_, level, limits);
+  Diagnostics known;  // reported by the plan
+  const std::uint64_t hash =
+      limits == noLimits(study_) ? level_hash_[level] : checkedScene(study_.inputs, sets, study_.folder, known);
+  return {std::move(sets), hash};
+}
+
+/// Runs the level if it has not been run. False: it cannot be, or the study was stopped.
+bool Driver::runsWith(std::size_t level, const FinerLimits& limits) {
+  if (stopped_) return false;
+  const Task task = levelTask(level, limits);
+  if (!store_->hasEvidence(task.hash)) {
+    progress_->more(1);
+    forecast_.add(runOf(task));
+    work({task}, 1, "a finer reference");
+  }
+  return !stopped_ && store_->evidence(task.hash, false).failure.empty();
+}
+
+// A level whose knobs are too fine for the scene, for want of memory for instance, is run with coarser ones.
+void Driver::settleLevels(std::size_t levels) {
+  for (std::size_t level = 0; level < std::min(levels, study_.reference.size()) && !stopped_;) {
+    if (!runsWith(level, limits_) && !stopped_ && limits_ != FinerLimits(limits_.size(), 0)) {
+      limits_ =
+          limitsThatRun(study_, level, limits_, [&](const FinerLimits& limits) { return runsWith(level, limits); });
+      level = 0;  // the levels before may have changed
+    } else {
+      ++level;
+    }
+  }
+}
+
 // Until the reference's own uncertainty is small compared with the smallest error in the report.
 void Driver::refineReference() {
   for (std::size_t levels = kFirstLevels; !stopped_; ++levels) {
+    settleLevels(levels);
+    if (stopped_) return;
     compare(levels);
-    if (study_.reference.empty() || result_.reference.fine_enough || levels >= study_.reference.size()) return;
-    const Task finer{study_.reference[levels], level_hash_[levels]};
-    progress_->more(1);
-    forecast_.add(runOf(finer));
-    work({finer}, 1, "a finer reference");
+    if (!study_.reference.empty() && !result_.reference.fine_enough && levels < study_.reference.size()) continue;
+    result_.orders = ordersOf(result_, [&](std::uint64_t scene) { return store_->evidence(scene, true); });
+    return;
   }
 }
 
@@ -301,14 +342,17 @@ void Driver::compare(std::size_t levels) {
   Result::Reference& reference = result_.reference;
   using Kind = Study::Reference;
   const bool refined = study_.reference_kind == Kind::kRefined;
-  const Evidence fine = refined                                    ? store_->evidence(level_hash_[levels - 1], true)
+  const Evidence fine = refined ? store_->evidence(levelTask(levels - 1, limits_).hash, true)
                         : study_.reference_kind == Kind::kAnalytic ? analyticAnswer(spec({}))
                                                                    : Evidence{};
-  const Evidence coarser = refined ? store_->evidence(level_hash_[levels - 2], true) : fine;
+  const Evidence coarser = refined ? store_->evidence(levelTask(levels - 2, limits_).hash, true) : fine;
   for (const Evidence* level : {&fine, &coarser}) {
     if (!level->failure.empty()) throw std::runtime_error("the reference cannot be run: " + level->failure);
   }
-  if (refined) reference.sets = study_.reference[levels - 1];
+  if (refined) {
+    reference.sets = setsOfLevel(study_, levels - 1, limits_);
+    reference.kept = keptKnobs(study_, levels - 1, limits_);
+  }
   result_.outcomes.clear();
   result_.metrics = study_.metrics;
   for (const Setting& setting : study_.settings) result_.outcomes.push_back({setting, setting.impossible, {}, {}});

@@ -8,6 +8,7 @@
 
 #include "apps/common/file_text.h"
 #include "apps/studies/cost/condition_factor.h"
+#include "apps/studies/cost/finer_knobs.h"
 #include "apps/studies/cost/hash.h"
 #include "apps/studies/cost/law_factor.h"
 #include "framework/scene/load.h"
@@ -18,19 +19,20 @@ namespace presa::cost {
 namespace {
 
 /// What a scene must have for a knob to do something.
-enum class Need { kNothing, kFingers, kFingertips, kTools, kMotion, kHeldMotion, kMeshes };
+enum class Need { kNothing, kFingers, kFingertips, kMotion, kHeldMotion, kMeshes };
 
 struct KnownFactor {
   const char* name;
   const char* path;  ///< "device/*/…": every device
   Need need;
+  Direction finer = Direction::kNone;  ///< where errors fall as a power of it
 };
 
 constexpr KnownFactor kFactors[] = {
-    {"haptic_rate", "rates/haptic", Need::kNothing},  // its ticks cost time, also without a finger
+    {"haptic_rate", "rates/haptic", Need::kNothing, Direction::kUp},  // its ticks cost time, also without a finger
     {"collision_rate", "rates/collision", Need::kMeshes},
-    {"dynamics_rate", "rates/dynamics", Need::kMotion},
-    {"substeps", "dynamics/substeps", Need::kMotion},
+    {"dynamics_rate", "rates/dynamics", Need::kMotion, Direction::kUp},
+    {"substeps", "dynamics/substeps", Need::kMotion, Direction::kUp},
     {"solver", "dynamics/solver", Need::kMotion},
     {"iterations", "dynamics/iterations", Need::kMotion},
     {"coupling", "dynamics/coupling", Need::kHeldMotion},
@@ -39,8 +41,6 @@ constexpr KnownFactor kFactors[] = {
     {"rotation", "dynamics/rotation", Need::kMotion},
     {"sleeping", "dynamics/sleeping", Need::kMotion},
     {"renderer", "haptics/renderer", Need::kFingertips},
-    {"voxel", "haptics/pointshell/voxel", Need::kTools},
-    {"points", "haptics/pointshell/max_points", Need::kTools},
     {"pose", "haptics/pose", Need::kHeldMotion},
     {"collision_index", "collision/index", Need::kMeshes},
     {"patch_margin", "collision/margin", Need::kMeshes},
@@ -59,6 +59,14 @@ std::vector<std::string> pathsOf(const std::string& path, const Scene& scene) {
   std::vector<std::string> paths;
   for (const DeviceRole& role : scene.devices) paths.push_back(std::string(path).replace(star, 1, role.role));
   return paths;
+}
+
+/// A knob of the scene's own renderers, or else of another one, by its name or path; none: there is no such knob.
+std::optional<FinerKnob> finerKnob(const std::string& name, const Scene& scene) {
+  for (const std::vector<FinerKnob>& knobs : {finerKnobs(scene), allFinerKnobs()})
+    for (const FinerKnob& knob : knobs)
+      if (knob.name == name || knob.path == name) return knob;
+  return std::nullopt;
 }
 
 std::vector<std::string> with(std::vector<std::string> sets, const std::vector<std::string>& more) {
@@ -216,7 +224,16 @@ std::vector<std::string> factorNames() {
   for (const KnownFactor& factor : kFactors) names.emplace_back(factor.name);
   names.emplace_back(kMeshFactor);
   names.emplace_back(kLawFactor);
+  for (const FinerKnob& knob : allFinerKnobs())
+    if (std::ranges::find(names, knob.name) == names.end()) names.push_back(knob.name);
   return names;
+}
+
+Direction directionOf(const std::string& factor, const Scene& scene) {
+  for (const KnownFactor& known : kFactors)
+    if (known.name == factor || known.path == factor) return known.finer;
+  const std::optional<FinerKnob> knob = finerKnob(factor, scene);
+  return knob ? knob->finer : Direction::kNone;
 }
 
 std::uint64_t checkedScene(const Inputs& inputs, const std::vector<std::string>& sets, const std::string& folder,
@@ -247,7 +264,8 @@ Factor makeFactor(const std::string& name, const std::vector<std::string>& value
   const auto known =
       std::find_if(std::begin(kFactors), std::end(kFactors), [&](const KnownFactor& k) { return k.name == name; });
   const bool special = name == kMeshFactor || name == kLawFactor;
-  if (known == std::end(kFactors) && name.find('/') == std::string::npos && !special) {
+  const std::optional<FinerKnob> finer = finerKnob(name, scene);
+  if (known == std::end(kFactors) && !finer && name.find('/') == std::string::npos && !special) {
     std::string list;
     for (const std::string& each : factorNames()) list += (list.empty() ? "" : ", ") + each;
     diagnostics.error(801, where, "there is no knob " + quote(name) + didYouMean(name, factorNames()),
@@ -257,7 +275,10 @@ Factor makeFactor(const std::string& name, const std::vector<std::string>& value
   Factor factor = name == kMeshFactor  ? meshFactor(values, scene, folder, where, diagnostics)
                   : name == kLawFactor ? lawFactor(values, scene, where, diagnostics)
                                        : Factor{name, {}};
-  const std::vector<std::string> paths = pathsOf(known == std::end(kFactors) ? name : known->path, scene);
+  const std::vector<std::string> paths = pathsOf(known != std::end(kFactors) ? known->path
+                                                 : finer                     ? finer->path
+                                                                             : name,
+                                                 scene);
   for (const std::string& value : values) {
     if (value.empty() || special) continue;
     FactorValue& added = factor.values.emplace_back();
@@ -363,9 +384,6 @@ static std::string lackFor(Need need, const Loaded& base) {
   if ((need == Need::kMotion || need == Need::kHeldMotion) && !moves) return "nothing in it moves";
   if ((need == Need::kFingers || need == Need::kHeldMotion) && !touches) return "it has no finger";
   if (need == Need::kFingertips && !base.world->scene.hasFingertips()) return "it has no fingertip";
-  if (need == Need::kTools && base.world->scene.haptics.tool_renderer != "pointshell")
-    return "its tools have another renderer";
-  if (need == Need::kTools && !base.world->scene.hasTools()) return "it has no tool with volume";
   if (need == Need::kMeshes && !base.plan.has("collision_fcl")) return "no finger of it touches a mesh";
   return {};
 }
@@ -376,6 +394,12 @@ void checkUse(const Factor& factor, const Loaded& base, const SourceLocation& wh
     const std::string lacks = lackFor(known.need, base);
     if (known.name == factor.name) lack = lacks;
     if (lacks.empty()) used += (used.empty() ? "" : ", ") + std::string(known.name);
+  }
+  const std::optional<FinerKnob> knob = finerKnob(factor.name, base.world->scene);
+  if (knob) lack = "no renderer of it has one";
+  for (const FinerKnob& own : finerKnobs(base.world->scene)) {
+    if (knob && own.path == knob->path) lack.clear();
+    used += (used.empty() ? "" : ", ") + own.name;
   }
   if (lack.empty()) return;
   diagnostics.error(816, where, "knob " + quote(factor.name) + " does nothing in this scene: " + lack,
@@ -428,10 +452,7 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
         quick ? std::vector<std::string>{"50", "100"} : std::vector<std::string>{"25", "50", "100", "200", "500"});
   if (quick) return factors;
   if (scene.hasFingertips()) add("renderer", renderers());
-  if (scene.hasTools()) {
-    add("voxel", {"0.002", "0.001", "0.0005", "0.00025"});
-    add("points", {"500", "2000", "8000", "32000"});
-  }
+  for (const FinerKnob& knob : finerKnobs(scene)) add(knob.name.c_str(), knob.tried);
   if (moves) {
     add("substeps", {"1", "2", "4", "8"});
     add("solver", {"auto", "direct", "iterative", "newton", "small_steps"});

@@ -21,6 +21,9 @@ void checkUse(const Factor& factor, const Loaded& base, const SourceLocation& wh
 /// True when the scene has dynamics, with any engine.
 bool hasMotion(const Plan& plan);
 
+/// Which values of a factor, given by name or by path, are more accurate.
+Direction directionOf(const std::string& factor, const Scene& scene);
+
 /// Names of all named factors.
 std::vector<std::string> factorNames();
 

@@ -5,6 +5,7 @@
 #include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/fixed_rig.h"
 #include "apps/studies/cost/hash.h"
+#include "apps/studies/cost/reference_levels.h"
 #include "apps/studies/cost/trace.h"
 
 namespace presa::cost {
@@ -14,8 +15,9 @@ Identity identityOf(const Study& study) {
   Diagnostics diagnostics;
   const Loaded base = loadWorld(study.inputs, {}, diagnostics);
   if (!diagnostics.hasErrors()) {
-    for (const auto& sets : study.reference)
-      identity.levels.push_back(checkedScene(study.inputs, sets, study.folder, diagnostics));
+    for (std::size_t level = 0; level < study.reference.size(); ++level)
+      identity.levels.push_back(
+          checkedScene(study.inputs, setsOfLevel(study, level, noLimits(study)), study.folder, diagnostics));
   }
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   identity.rig = rigWithFixedDamping(base);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/terminal/text.h"
 #include "apps/studies/cost/analysis.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/verdict.h"
@@ -65,7 +66,10 @@ std::string figureOf(const Result& result, const Metric& metric, const std::stri
   const auto limit = result.reference.noticeable.find(metric.name);
   if (limit != result.reference.noticeable.end() && isNear(limit->second, low.y, high.y))
     figure.y_levels.push_back({limit->second, "just noticeable", ""});
-  return "<figure><h3>" + svg::escape(knob) + "</h3>\n" + svg::render(figure) + "</figure>\n";
+  const auto order = std::ranges::find_if(
+      result.orders, [&](const Order& each) { return each.factor == knob && each.metric == metric.name; });
+  const std::string words = order == result.orders.end() ? "" : terminal::format(": order %.2f", order->order);
+  return "<figure><h3>" + svg::escape(knob + words) + "</h3>\n" + svg::render(figure) + "</figure>\n";
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
+#include "apps/studies/cost/analysis.h"
 #include "apps/studies/cost/verdict.h"
 
 namespace presa::cost {
@@ -31,6 +33,21 @@ std::vector<std::string> valuesOf(const Result& result, std::size_t knob) {
   };
   for (const Outcome& outcome : result.outcomes) add(outcome.setting.choices[knob].second);
   return values;
+}
+
+/// Colours of a knob's values: told apart, or, of more than there are colours, a ramp in the order of the numbers.
+std::vector<int> colorsOf(const std::vector<std::string>& values) {
+  const auto count = static_cast<int>(values.size());
+  std::vector<int> order(values.size()), colors(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (count <= svg::kColors) return order;
+  const auto number = [&](int i) { return numberIn(values[static_cast<std::size_t>(i)]); };
+  if (std::ranges::all_of(order, [&](int i) { return number(i).has_value(); }))
+    std::ranges::stable_sort(order, {}, [&](int i) { return *number(i); });
+  for (int place = 0; place < count; ++place)
+    colors[static_cast<std::size_t>(order[static_cast<std::size_t>(place)])] =
+        svg::kRamp + (svg::kRampSteps - 1) * place / (count - 1);
+  return colors;
 }
 
 /// Variance of the logarithms of cost and error that a knob's values explain, per value beyond the first.
@@ -95,7 +112,7 @@ Looks looksOf(const Result& result) {
   }
   if (one_at_a_time) {
     for (std::size_t rank = 0; rank < knobs.size(); ++rank)
-      looks.legend.push_back({usual[knobs[rank]].first, static_cast<int>(rank % 6), shapeOf(rank)});
+      looks.legend.push_back({usual[knobs[rank]].first, static_cast<int>(rank % svg::kColors), shapeOf(rank)});
     for (std::size_t i = 0; i < looks.of.size(); ++i) {
       const std::vector<std::size_t> own = differences(result, result.outcomes[i]);
       if (own.empty()) continue;
@@ -108,17 +125,18 @@ Looks looksOf(const Result& result) {
   knobs = ranked(result, knobs);
   for (std::size_t rank = 0; rank < 2; ++rank) {
     const std::vector<std::string> values = valuesOf(result, knobs[rank]);
+    const std::vector<int> colors = colorsOf(values);
     for (std::size_t v = 0; v < values.size(); ++v) {
-      const int color = static_cast<int>(v % 6);
       const std::string& knob = usual[knobs[rank]].first;
       looks.legend.push_back(
-          {knob + " " + wordOf(knob, values[v]), rank == 0 ? color : -1, rank == 0 ? 0 : shapeOf(v)});
+          {knob + " " + wordOf(knob, values[v]), rank == 0 ? colors[v] : -1, rank == 0 ? 0 : shapeOf(v)});
     }
+    if (rank == 0) std::ranges::stable_sort(looks.legend, {}, &svg::WorkFigure::Entry::color);
     for (std::size_t i = 0; i < looks.of.size(); ++i) {
       const std::string& value = result.outcomes[i].setting.choices[knobs[rank]].second;
       const auto v = static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
       if (rank == 0)
-        looks.of[i].color = static_cast<int>(v % 6);
+        looks.of[i].color = colors[v];
       else
         looks.of[i].shape = shapeOf(v);
     }

@@ -7,8 +7,10 @@
 
 #include "apps/studies/cost/condition_factor.h"
 #include "apps/studies/cost/factors.h"
+#include "apps/studies/cost/finer_knobs.h"
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/metrics.h"
+#include "apps/studies/cost/reference_levels.h"
 #include "framework/input/folders.h"
 
 namespace presa::cost {
@@ -35,11 +37,13 @@ Factor parseFactor(const std::string& text, const Scene& scene, const std::strin
 
 constexpr std::size_t kManyBodies = 2;  // more that move are slow to step
 
-/// Levels of the reference: of a quick study two for many bodies, three for meshes, so that it takes 20 s at most.
+/// Levels of the reference: of a quick study two for many bodies, three for meshes and tools, so that it takes 20 s at most.
 std::size_t levelsFor(const Loaded& base, bool quick) {
   if (!quick) return 4;
   const auto moving = std::ranges::count_if(base.world->scene.bodies, [](const Body& body) { return !body.fixed; });
-  return static_cast<std::size_t>(moving) > kManyBodies ? 2 : base.plan.has("collision_fcl") ? 3 : 4;
+  return static_cast<std::size_t>(moving) > kManyBodies                   ? 2
+         : base.plan.has("collision_fcl") || base.world->scene.hasTools() ? 3
+                                                                          : 4;
 }
 
 /// Whether ticks of `rate` fall on those of the haptic thread.
@@ -85,9 +89,23 @@ std::vector<SentenceRule> defaultSentences(const Study& study) {
   for (const Factor& factor : study.factors) {
     if (factor.name == "dynamics_rate" && has("force_rms"))
       rules.push_back({.kind = SentenceRule::Kind::kHalving, .metric = "force_rms", .factor = factor.name});
+    const char* metric = has("force_rms") ? "force_rms" : has("position") ? "position" : nullptr;
+    if (factor.finer != Direction::kNone && metric != nullptr)
+      rules.push_back({.kind = SentenceRule::Kind::kOrder, .metric = metric, .factor = factor.name});
   }
   rules.push_back({.kind = SentenceRule::Kind::kFailures});
   return rules;
+}
+
+/// The levels, which the settings must be known for: the reference is finer than all of them.
+void planReference(Study& study, const Loaded& base, bool quick, Diagnostics& diagnostics) {
+  if (study.reference_kind != Study::Reference::kRefined) return study.reference.clear();
+  if (study.reference.empty()) {
+    study.reference = defaultReference(base, quick);
+    study.finer = finerSets(base.world->scene, study.factors, study.reference.size());
+  }
+  for (std::size_t level = 0; level < study.reference.size(); ++level)
+    checkedScene(study.inputs, setsOfLevel(study, level, noLimits(study)), study.folder, diagnostics);
 }
 
 /// True for a single free body without any other body or finger to touch: its motion is known analytically.
@@ -140,11 +158,6 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   }
   using Reference = Study::Reference;
   if (study.file.empty() && isAlone(base)) study.reference_kind = Reference::kAnalytic;
-  if (study.reference_kind != Reference::kRefined)
-    study.reference.clear();
-  else if (study.reference.empty())
-    study.reference = defaultReference(base, request.quick);
-  for (const auto& level : study.reference) checkedScene(study.inputs, level, study.folder, diagnostics);
 
   const bool hands_off = scene.devices.empty() && hasMotion(base.plan);
   if (study.reference_kind == Reference::kAnalytic && !hands_off)
@@ -172,6 +185,8 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
                       "there is nothing to compare: no setting differs from the scene as it stands",
                       "name knobs with --knob NAME=VALUE,VALUE");
   }
+  for (Factor& factor : study.factors) factor.finer = directionOf(factor.name, scene);
+  planReference(study, base, request.quick, diagnostics);
   nameSettings(study);
   if (study.sentences.empty()) study.sentences = defaultSentences(study);
   return study;

@@ -33,6 +33,10 @@ std::string finePrint(const Result& result) {
                      ? "less than a tenth of the smallest error shown."
                      : "more than a tenth of some errors: those are marked ≲, below the reference's resolution.");
   }
+  for (const std::string& knob : result.reference.kept)
+    reference +=
+        " It keeps <code>" + escape(knob) +
+        "</code>, because it cannot be run with a finer value: the error of that knob is not in the difference.";
   rows += fact("reference", reference);
   rows += fact(
       "repeats",

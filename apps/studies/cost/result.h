@@ -34,6 +34,15 @@ struct Outcome {
   Spread memory() const;  ///< [B]
 };
 
+/// Observed order of convergence along one knob in one metric, all other knobs the same.
+struct Order {
+  std::string factor, metric;
+  /// Errors fall with this power of the step: of the value where smaller ones are finer, else of 1 / value.
+  double order = 0;
+  /// Coarse to fine. The last one is what the others are compared with, unless the reference is analytic.
+  std::vector<std::string> values;
+};
+
 /// All data of a report. `outcomes` are in the order of Study::settings.
 struct Result {
   Study study;
@@ -41,6 +50,7 @@ struct Result {
   struct Reference {
     bool fine_enough = false;                ///< residual below a tenth of the smallest error, in every metric
     std::vector<std::string> sets;           ///< sets of the finest level used
+    std::vector<std::string> kept;           ///< knobs that could not be refined as planned, with their values
     std::map<std::string, double> residual;  ///< by metric: error of the second finest level against the finest
     std::map<std::string, double> noticeable;
   } reference;
@@ -51,6 +61,7 @@ struct Result {
     double hausdorff = 0;  ///< [file units]
   };
   std::vector<Mesh> meshes;
+  std::vector<Order> orders;
   /// Ten times the reference's residual: smaller errors are not known to a tenth. 0: all errors are.
   double resolution(const std::string& metric) const;
   /// True when the outcome's error is known to a tenth, or when it has no error.

@@ -163,6 +163,20 @@ std::string front(const Result& result, const SentenceRule& rule) {
          " 1.3 times of the front of " + title + ": " + whatBeats(result, *distance) + ".";
 }
 
+std::string order(const Result& result, const SentenceRule& rule) {
+  const std::string error = lowered(findMetric(rule.metric)->title);
+  for (const Order& each : result.orders) {
+    if (each.factor != rule.factor || each.metric != rule.metric) continue;
+    const bool exact = result.study.reference_kind == Study::Reference::kAnalytic;
+    return "The order of convergence along " + rule.factor + format(" is %.2f: the error (", each.order) + error +
+           format(") of %zu values from ", each.values.size() - (exact ? 0 : 1)) + each.values.front() +
+           (exact ? " to " + each.values.back() + ", all else the same."
+                  : " on, each against that of " + each.values.back() + " with all else the same.");
+  }
+  if (result.study.file.empty()) return {};  // nobody has asked
+  return "No order of convergence appears along " + rule.factor + " in " + error + ".";
+}
+
 std::string failures(const Result& result) {
   std::map<std::string, int> reasons;
   int count = 0;
@@ -220,6 +234,9 @@ std::vector<std::string> sentences(const Result& result) {
         break;
       case SentenceRule::Kind::kFront:
         text = front(result, rule);
+        break;
+      case SentenceRule::Kind::kOrder:
+        text = order(result, rule);
         break;
       case SentenceRule::Kind::kFailures:
         text = failures(result);

@@ -22,9 +22,13 @@ struct FactorValue {
   std::vector<Decimation> meshes{};
 };
 
+/// Which values of a number are more accurate: none are known to be, the larger ones, the smaller ones.
+enum class Direction { kNone, kUp, kDown };
+
 struct Factor {
   std::string name;
   std::vector<FactorValue> values;
+  Direction finer = Direction::kNone;
 };
 
 /// One combination of factor values for the scene.
@@ -38,10 +42,10 @@ struct Setting {
 
 /// Rule for a sentence at the end of the report, made from its numbers.
 struct SentenceRule {
-  enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kFailures };
+  enum class Kind { kBelow, kHalving, kCompare, kCheapest, kFront, kOrder, kFailures };
   Kind kind = Kind::kBelow;
   std::string metric{};  ///< name; empty for kFailures
-  std::string factor{};  ///< for kHalving and kCompare
+  std::string factor{};  ///< for kHalving, kCompare and kOrder
   std::string a{}, b{};  ///< for kCompare: values of the factor
   double limit = 0;      ///< for kBelow and kCheapest, in the metric's unit; 0: the just-noticeable difference
 };
@@ -68,9 +72,12 @@ struct Study {
   enum class Reference { kRefined, kAnalytic, kNone };
   Reference reference_kind = Reference::kRefined;
   std::vector<std::vector<std::string>> reference;  ///< for kRefined: sets of each level, coarse to fine; at least two
-  std::vector<Factor> factors;                      ///< all factors that vary
-  std::vector<Setting> settings;                    ///< the first is the unmodified scene
-  std::vector<std::string> metrics;                 ///< names, see metrics.h
+  /// For each knob of the renderers that the levels refine: its sets, coarse to fine. The last ones belong to the levels
+  /// in turn; those before are the study's own values, for a level that cannot be run, for want of memory.
+  std::vector<std::vector<std::string>> finer;
+  std::vector<Factor> factors;       ///< all factors that vary
+  std::vector<Setting> settings;     ///< the first is the unmodified scene
+  std::vector<std::string> metrics;  ///< names, see metrics.h
   std::vector<SentenceRule> sentences;
 };
 

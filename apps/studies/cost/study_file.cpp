@@ -62,9 +62,9 @@ Factor readFactor(const Element& element, const Scene& scene, const std::string&
 
 std::optional<SentenceRule> readRule(const Element& element) {
   using Kind = SentenceRule::Kind;
-  static const std::pair<const char*, Kind> kKinds[] = {{"below", Kind::kBelow},     {"cheapest", Kind::kCheapest},
-                                                        {"halving", Kind::kHalving}, {"compare", Kind::kCompare},
-                                                        {"front", Kind::kFront},     {"failures", Kind::kFailures}};
+  static const std::pair<const char*, Kind> kKinds[] = {
+      {"below", Kind::kBelow}, {"cheapest", Kind::kCheapest}, {"halving", Kind::kHalving},  {"compare", Kind::kCompare},
+      {"front", Kind::kFront}, {"order", Kind::kOrder},       {"failures", Kind::kFailures}};
   for (const auto& [name, kind] : kKinds) {
     if (element.name() != name) continue;
     return SentenceRule{kind,

@@ -77,6 +77,10 @@ std::string toJsonText(const Result& result) {
                       {"source_triangles", mesh.source_triangles},
                       {"hausdorff", mesh.hausdorff}});
   }
+  json orders = json::array();
+  for (const Order& order : result.orders)
+    orders.push_back(
+        {{"knob", order.factor}, {"metric", order.metric}, {"order", order.order}, {"values", order.values}});
   json machine = json::object();
   for (const auto& [key, value] : result.machine) machine[key] = value;
   const json all{{"study", study.name},
@@ -89,8 +93,10 @@ std::string toJsonText(const Result& result) {
                  {"reference",
                   {{"analytic", study.reference_kind == Study::Reference::kAnalytic},
                    {"set", result.reference.sets},
+                   {"kept", result.reference.kept},
                    {"residual_below_a_tenth_of_the_smallest_error", result.reference.fine_enough}}},
                  {"metrics", metrics},
+                 {"orders", orders},
                  {"meshes", meshes},
                  {"machine", machine},
                  {"settings", settings}};

@@ -124,6 +124,26 @@ TEST_F(Manifests, OfRenderersAddAValueToHaptics) {
   EXPECT_NE(xsd.find("<xs:element name=\"rays\" p:implied=\"false\" minOccurs=\"0\">"), std::string::npos);
 }
 
+// A study of accuracy refines numbers that say so.
+TEST_F(Manifests, SayWhichNumbersAreMoreAccurate) {
+  const auto rays = [](const std::string& attribute) {
+    return renderer(
+        "<element name=\"rays\" in=\"haptics\"><attribute name=\"count\" default=\"3\" about=\"how many\" " +
+        attribute + "/></element>");
+  };
+  write("presa_rays.xml", rays("type=\"number\" finer=\"up\" tried=\"1 10 100\""));
+  Diagnostics diagnostics;
+  const auto all = readManifests({folder_.path().string()}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  const Manifest::Attribute& count = all.at(0).elements.at(0).attributes.at(0);
+  EXPECT_EQ(count.finer, "up");
+  EXPECT_EQ(count.tried, (std::vector<std::string>{"1", "10", "100"}));
+  write("presa_rays.xml", rays("type=\"boolean\" finer=\"up\""));
+  EXPECT_EQ(errors(), "595 <rays count> of the renderer 'rays' has finer=\"…\", but is no number\n");
+  write("presa_rays.xml", rays("type=\"number\" tried=\"1 2\""));
+  EXPECT_EQ(errors(), "595 <rays count> of the renderer 'rays' has tried=\"…\" without finer=\"…\"\n");
+}
+
 TEST_F(Manifests, OfRenderersHaveOneElementWithDefaults) {
   write("presa_rays.xml", renderer("<element name=\"rays\" in=\"haptics\"><attribute name=\"count\" type=\"number\" "
                                    "about=\"how many\"/></element>"));

@@ -109,10 +109,6 @@ TEST(Analysis, TheCheapestThatNobodyFeelsIsBelowEveryLimit) {
   EXPECT_EQ(cheapestUnfelt(result), 2u);
 }
 
-TEST(Analysis, TheOrderIsTheSlope) {
-  EXPECT_NEAR(observedOrder(made(), "force_rms", "dynamics_rate").value(), 1, 1e-12);
-}
-
 TEST(Sentences, SayWhatTheNumbersSay) {
   using Kind = SentenceRule::Kind;
   Result result = made();

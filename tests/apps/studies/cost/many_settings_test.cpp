@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "apps/common/report/page.h"
+#include "apps/studies/cost/looks.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/report.h"
 #include "framework/core/math/random.h"
@@ -53,6 +55,32 @@ TEST(ManySettings, MakeAPageThatOpens) {
   const std::string page = reportHtml(sweep());
   if (const char* file = std::getenv("PRESA_PAGE")) std::ofstream(file) << page;
   EXPECT_LT(page.size(), 8'000'000u);
+}
+
+/// Relative luminance of a colour variable of the page, as WCAG defines it; the first of them is of the light theme.
+double luminanceOf(const std::string& variable) {
+  const std::string style = page::style();
+  const auto color = std::stoul(style.substr(style.find(variable + ": #") + variable.size() + 3, 6), nullptr, 16);
+  double sum = 0;
+  for (const auto& [shift, weight] : {std::pair(16, 0.2126), {8, 0.7152}, {0, 0.0722}}) {
+    const double part = static_cast<double>(color >> static_cast<unsigned>(shift) & 255U) / 255;
+    sum += weight * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+// Ten values of a knob: each has a colour of its own, and who sees no hues sees them get darker.
+TEST(ManySettings, OfAKnobAreColouredAlongARamp) {
+  const Looks looks = looksOf(sweep());
+  double last = 2;
+  for (int i = 0; i < kSide; ++i) {
+    const svg::WorkFigure::Entry& entry = looks.legend[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(entry.label.ends_with(" " + std::to_string(i + 1))) << entry.label;
+    ASSERT_GE(entry.color, svg::kRamp);
+    const double luminance = luminanceOf("--r" + std::to_string(entry.color - svg::kRamp));
+    EXPECT_LT(luminance, 0.95 * last);
+    last = luminance;
+  }
 }
 
 }  // namespace
