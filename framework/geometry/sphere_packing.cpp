@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <queue>
 
@@ -13,9 +14,11 @@ namespace {
 constexpr double kClimbUntil = 0.02;     // step at which a climb ends, in relation to the grid
 constexpr double kSmallestSphere = 0.3;  // radius, in relation to the grid
 
+constexpr std::uint64_t kScatter = 0x9e3779b97f4a7c15;  // odd: multiples of it modulo 2^64 lie everywhere
+
 struct Candidate {
-  double room;  // at least its true room [m]
-  std::size_t order;
+  double room;          // at least its true room [m]
+  std::uint64_t order;  // of equal ones, scattered: a plate fills evenly
   double depth;
   Vec3 at;
   bool operator<(const Candidate& other) const {
@@ -33,9 +36,10 @@ double roomBetween(const std::vector<InnerSphere>& spheres, const Vec3& p, doubl
 std::vector<InnerSphere> packSpheres(const std::function<double(const Vec3&)>& depth, const AxisBox& bounds,
                                      std::size_t count, std::size_t cells) {
   const Vec3 size = bounds.high - bounds.low;
+  if (!(size.minCoeff() > 0)) return {};
   const double grid = std::cbrt(size.prod() / static_cast<double>(cells));
   std::priority_queue<Candidate> heap;
-  std::size_t order = 0;
+  std::uint64_t order = 0;
   const auto steps = [&](int axis) { return static_cast<int>(std::ceil(size[axis] / grid)); };
   for (int i = 0; i < steps(0); ++i) {
     for (int j = 0; j < steps(1); ++j) {
@@ -43,7 +47,7 @@ std::vector<InnerSphere> packSpheres(const std::function<double(const Vec3&)>& d
         const Vec3 cell(i + 0.5, j + 0.5, k + 0.5);
         const Vec3 at = bounds.low + cell.cwiseQuotient(Vec3(steps(0), steps(1), steps(2))).cwiseProduct(size);
         const double deep = depth(at);
-        if (deep > 0) heap.push({deep, order++, deep, at});
+        if (deep > 0) heap.push({deep, ++order * kScatter, deep, at});
       }
     }
   }

@@ -1,6 +1,7 @@
 #include "framework/haptics/convex_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace presa {
@@ -8,19 +9,18 @@ namespace {
 
 constexpr double kApart = 2e-5;  // gap at which the plane of an overlap is looked for [m]
 
-// Along the plane of the last tick the tool is taken out of the body, and a little farther; from there the shortest way
+// Along the plane of the last tick, or that of a face, the tool is taken out of the body, and a little farther; from there the shortest way
 // has a direction, which follows tool and body as they turn.
-SupportingPlane planeOfOverlap(const PlacedSupport& body, const PlacedSupport& tool, DistanceMemory& memory) noexcept {
+SupportingPlane planeOfOverlap(const PlacedSupport& body, const PlacedSupport& tool, const Vec3& nhat_last,
+                               DistanceMemory& memory) noexcept {
   const SupportingPlane last =
-      memory.nhat_AB.isZero() ? planeOfFaces(body, tool, memory) : planeAlong(body, tool, memory.nhat_AB, memory);
+      nhat_last.isZero() ? planeOfFaces(body, tool, memory) : planeAlong(body, tool, nhat_last, memory);
   const Vec3 out = (kApart - last.gap) * last.nhat_AB;
   memory.nhat_AB = last.nhat_AB;
   const ConvexDistance found = distance(body, {tool.support, tool.R, tool.p + out}, 2 * kApart, memory);
   const double gap = found.gap - out.dot(found.nhat_AB);
-  if (found.kind == ConvexDistance::Kind::kNearest && gap > last.gap)
-    return {found.nhat_AB, gap, found.on_a, found.on_b - out};
-  memory.nhat_AB = last.nhat_AB;
-  return last;
+  if (found.kind != ConvexDistance::Kind::kNearest || gap <= last.gap) return last;
+  return {found.nhat_AB, gap, found.on_a, found.on_b - out};
 }
 
 }  // namespace
@@ -43,6 +43,7 @@ ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>
 }
 
 void ConvexPairs::place(const Touchables& touchables) noexcept {
+  ++ticks_;
   ++poses_;
   separated_ = -1;
   for (std::size_t s = 0; s < bodies_.size(); ++s) {
@@ -52,6 +53,13 @@ void ConvexPairs::place(const Touchables& touchables) noexcept {
   }
 }
 
+void ConvexPairs::list(const NearParts& pair) noexcept {
+  if (near_.add(pair) != nullptr) return;
+  NearParts* farthest = std::max_element(near_.begin(), near_.end(),
+                                         [](const NearParts& a, const NearParts& b) { return a.gap < b.gap; });
+  if (pair.gap < farthest->gap) *farthest = pair;
+}
+
 bool ConvexPairs::gather(const Pose& X_WT, double reach) noexcept {
   near_.clear();
   separated_ = -1;
@@ -59,9 +67,13 @@ bool ConvexPairs::gather(const Pose& X_WT, double reach) noexcept {
     const Vec3 centre_W = X_WT * tool_.parts[t].centre_A;
     for (std::size_t s = 0; s < bodies_.size(); ++s) {
       for (std::size_t p = 0; p < bodies_[s].parts.size(); ++p) {
-        const double within = reach + tool_.parts[t].reach + bodies_[s].parts[p].reach;
-        if ((centres_W_[first_part_[s] + p] - centre_W).squaredNorm() > within * within) continue;
-        near_.add({static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(p)});
+        const double radii = tool_.parts[t].reach + bodies_[s].parts[p].reach, within = reach + radii;
+        const double apart = (centres_W_[first_part_[s] + p] - centre_W).squaredNorm();
+        if (apart > within * within) continue;
+        list({.tool_part = static_cast<std::uint32_t>(t),
+              .solid = static_cast<std::uint32_t>(s),
+              .part = static_cast<std::uint32_t>(p),
+              .gap = std::sqrt(apart) - radii});
       }
     }
   }
@@ -119,11 +131,22 @@ void ConvexPairs::separate(NearParts& pair, const Pose& X_WT, double beyond) noe
   ++poses_;
   separated_ = -1;
   const PlacedSupport body = placedBody(pair), tool = placedTool(pair);
-  DistanceMemory& memory = memoryOf(pair).distance;
-  const ConvexDistance found = distance(body, tool, beyond, memory);
+  Memory& memory = memoryOf(pair);
+  const bool is_fresh = memory.tick + 1 >= ticks_;
+  const Vec3 last = is_fresh ? memory.distance.nhat_AB : Vec3(Vec3::Zero());
+  const ConvexDistance found = distance(body, tool, beyond, memory.distance);
+  memory.tick = ticks_;
   SupportingPlane plane{found.nhat_AB, found.gap, found.on_a, found.on_b};
   pair.overlaps = found.kind == ConvexDistance::Kind::kOverlap;
-  if (pair.overlaps) plane = planeOfOverlap(body, tool, memory);
+  if (pair.overlaps) {
+    plane = planeOfOverlap(body, tool, last, memory.distance);
+  } else if (found.nhat_AB.dot(last) < 0) {
+    // within a tick it does not get around a part: it was turned, or the part moved, through it
+    const SupportingPlane before = planeAlong(body, tool, last, memory.distance);
+    pair.overlaps = before.gap < 0;
+    if (pair.overlaps) plane = before;
+  }
+  memory.distance.nhat_AB = plane.nhat_AB;
   pair.nhat_W = plane.nhat_AB;
   pair.gap = plane.gap;
   pair.on_body_W = X_WT.p + plane.on_a;
@@ -146,10 +169,6 @@ void ConvexPairs::touch(const NearParts& pair, double margin, Manifold& out) noe
   const auto [a, b] = facing_.of({body_hull, X_body, of_body, &turns[0]}, {tool_hull, X_tool, of_tool, &turns[1]});
   touchAlong(*a, *b, pair.nhat_W, pair.on_body_W - X_WT_.p, pair.on_tool_W - X_WT_.p, margin, out);
   for (int i = 0; i < out.count; ++i) out.points[static_cast<std::size_t>(i)].p_W += X_WT_.p;
-}
-
-void ConvexPairs::forget() noexcept {
-  for (Memory& memory : memories_) memory = {};
 }
 
 }  // namespace presa

@@ -11,10 +11,10 @@ namespace presa {
 
 /// A convex part of a tool near one of a body, and a plane between them.
 struct NearParts {
-  std::uint32_t tool_part = 0;  ///< index into the tool's parts
-  std::uint32_t solid = 0;      ///< index into the bodies
-  std::uint32_t part = 0;       ///< index into the body's parts
-  bool overlaps = false;  ///< they overlap: the plane is one near that of the last tick along which they overlap little
+  std::uint32_t tool_part = 0;    ///< index into the tool's parts
+  std::uint32_t solid = 0;        ///< index into the bodies
+  std::uint32_t part = 0;         ///< index into the body's parts
+  bool overlaps = false;          ///< they overlap; the plane is that of the last tick, turned towards less overlap
   Vec3 nhat_W = Vec3::UnitZ();    ///< unit, from the body into the tool
   double gap = 0;                 ///< along nhat_W; negative: overlap [m]
   Vec3 on_body_W = Vec3::Zero(),  ///< nearest points; where they overlap, the farthest along nhat_W [m]
@@ -33,7 +33,7 @@ class ConvexPairs {
   /// Poses of the bodies in this tick.
   void place(const Touchables& touchables) noexcept;
   /// Lists the pairs that come within `reach` [m] of each other as far as the spheres around the parts say, for a tool at
-  /// X_WT. False: there are more than kMaxNear.
+  /// X_WT. False: there are more than kMaxNear; the nearest ones are listed.
   bool gather(const Pose& X_WT, double reach) noexcept;
   /// Distance of the spheres around the nearest parts: a lower bound of the tool's clearance, for a tool at X_WT [m].
   double clearance(const Pose& X_WT) const noexcept;
@@ -54,13 +54,15 @@ class ConvexPairs {
     return (first_part_[pair.solid] + pair.part) * tool_.parts.size() + pair.tool_part;
   }
   /// The tool has been elsewhere: planes of earlier ticks mean nothing.
-  void forget() noexcept;
+  void forget() noexcept { ++ticks_; }
 
  private:
   struct Memory {
     DistanceMemory distance;
+    std::uint64_t tick = 0;             // of the last search
     std::array<CylinderTurn, 2> turns;  // of body and tool
   };
+  void list(const NearParts& pair) noexcept;
   Memory& memoryOf(const NearParts& pair) noexcept { return memories_[indexOf(pair)]; }
   /// The hull of a part as the contact of two hulls wants it, found once for each pose.
   struct InWorld {
@@ -77,6 +79,7 @@ class ConvexPairs {
   std::vector<Vec3> centres_W_;                   // by part of all bodies
   std::vector<Memory> memories_;                  // by part of all bodies, and by part of the tool
   std::vector<InWorld> bodies_in_W_, tool_in_W_;  // by part, from the tool's origin
+  std::uint64_t ticks_ = 1;                       // number of calls of place()
   std::uint64_t poses_ = 0;                       // number of poses of the tool so far
   Pose X_WT_;                                     // at the last separate()
   double separated_ = -1;  // range of the planes of near_ at X_WT_ [m]; below zero: not found yet

@@ -99,6 +99,12 @@ class Maker {
 
 }  // namespace
 
+PartSettings partSettings(const PluginElement& settings) {
+  return {.cut = {.max_pieces = static_cast<std::size_t>(settings.number("max_pieces")),
+                  .max_error = settings.number("max_error")},
+          .max_vertices = static_cast<std::size_t>(settings.number("max_vertices"))};
+}
+
 std::vector<ConvexSolid> convexBodies(const World& world, const PartSettings& settings) {
   Maker maker(settings);
   std::vector<ConvexSolid> solids;

@@ -31,6 +31,9 @@ struct PartSettings {
   std::size_t max_vertices = 256;  ///< of a part
 };
 
+/// From the attributes max_pieces, max_error and max_vertices of a renderer's element.
+PartSettings partSettings(const PluginElement& settings);
+
 /// The touchable bodies of a world. A cut that took long is kept in the user's cache. Throws std::invalid_argument for a
 /// mesh that is open. Thread: before a run.
 std::vector<ConvexSolid> convexBodies(const World& world, const PartSettings& settings);

@@ -38,9 +38,9 @@ std::vector<Override> parseSets(const std::vector<std::string>& sets, Diagnostic
 /// it touches.
 void boundStiffness(Loaded& loaded, Diagnostics& diagnostics) {
   const Scene& scene = loaded.world->scene;
-  const StiffnessBound bound = stiffnessBound(loaded.devices, loaded.plan, scene);
-  auto lowered = boundedHandles(scene, bound, turnStiffnessBound(loaded.devices, loaded.plan, scene), diagnostics);
-  std::ranges::move(boundedMaterials(scene, bound, diagnostics), std::back_inserter(lowered));
+  auto lowered = boundedHandles(loaded.devices, loaded.plan, scene, diagnostics);
+  std::ranges::move(boundedMaterials(scene, stiffnessBound(loaded.devices, loaded.plan, scene), diagnostics),
+                    std::back_inserter(lowered));
   std::ranges::move(boundedDampings(scene, dampingBound(loaded.devices, loaded.plan, scene), diagnostics),
                     std::back_inserter(lowered));
   if (lowered.empty()) return;

@@ -82,18 +82,14 @@ double seenThroughZoom(const Plan& plan, std::size_t f, double value) {
   return value / (zoom * zoom);
 }
 
-}  // namespace
-
-namespace {
-
-/// `damping_of`: of a device, 0: unknown.
-template <class DampingOf>
-StiffnessBound smallestBound(const DeviceList& devices, const Plan& plan, const Scene& scene,
+/// Of the devices that `is_meant` names. `damping_of`: of a device, 0: unknown.
+template <class IsMeant, class DampingOf>
+StiffnessBound smallestBound(const DeviceList& devices, const Plan& plan, const Scene& scene, const IsMeant& is_meant,
                              const DampingOf& damping_of) {
   StiffnessBound min;
   const double period = RateTable(scene.rates).period(RateGroup::kHaptic);
   for (std::size_t f = 0; f < devices.size(); ++f) {
-    const double damping = damping_of(f);
+    const double damping = is_meant(f) ? damping_of(f) : 0;
     if (!(damping > 0)) continue;
     const int delay = delayOf(plan, f);
     const double stiffness = damping / ((delay + 0.5) * period);
@@ -127,25 +123,28 @@ class Lowering {
 }  // namespace
 
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
-  return smallestBound(devices, plan, scene,
-                       [&](std::size_t f) { return seenThroughZoom(plan, f, devices[f]->damping()); });
+  return smallestBound(
+      devices, plan, scene, [&](std::size_t f) { return !scene.hasFingertips() || !scene.devices[f].tool; },
+      [&](std::size_t f) { return seenThroughZoom(plan, f, devices[f]->damping()); });
 }
 
 // A zoom scales lengths, not angles.
-StiffnessBound turnStiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene) {
-  return smallestBound(devices, plan, scene, [&](std::size_t f) { return devices[f]->turnDamping(); });
-}
-
-std::vector<Override> boundedHandles(const Scene& scene, const StiffnessBound& bound, const StiffnessBound& turning,
+std::vector<Override> boundedHandles(const DeviceList& devices, const Plan& plan, const Scene& scene,
                                      Diagnostics& diagnostics) {
   std::vector<Override> lowered;
-  const Lowering of_force(bound, kOfForce, diagnostics), of_torque(turning, kOfTorque, diagnostics);
-  for (const DeviceRole& role : scene.devices) {
+  for (std::size_t d = 0; d < scene.devices.size(); ++d) {
+    const DeviceRole& role = scene.devices[d];
     if (!role.tool) continue;
+    const auto own = [&](std::size_t f) { return f == d; };
+    const StiffnessBound of_force = smallestBound(
+        devices, plan, scene, own, [&](std::size_t f) { return seenThroughZoom(plan, f, devices[f]->damping()); });
+    const StiffnessBound of_torque =
+        smallestBound(devices, plan, scene, own, [&](std::size_t f) { return devices[f]->turnDamping(); });
     const std::string name = "the handle of tool '" + role.role + "'", path = "device/" + role.role + "/tool/";
-    of_force.lower(name, role.tool->coupling.stiffness, role.where, path + "stiffness", lowered);
-    of_torque.lower("turning " + name, role.tool->coupling.turn_stiffness, role.where, path + "turn_stiffness",
-                    lowered);
+    Lowering(of_force, kOfForce, diagnostics)
+        .lower(name, role.tool->coupling.stiffness, role.where, path + "stiffness", lowered);
+    Lowering(of_torque, kOfTorque, diagnostics)
+        .lower("turning " + name, role.tool->coupling.turn_stiffness, role.where, path + "turn_stiffness", lowered);
   }
   return lowered;
 }
@@ -153,7 +152,8 @@ std::vector<Override> boundedHandles(const Scene& scene, const StiffnessBound& b
 std::vector<Override> boundedMaterials(const Scene& scene, const StiffnessBound& bound, Diagnostics& diagnostics) {
   std::vector<Override> lowered;
   const Lowering lowering(bound, kOfForce, diagnostics);
-  for (std::size_t m = 0; m < scene.materials.size() && scene.hasFingertips(); ++m) {
+  if (!scene.hasFingertips()) return lowered;  // a tool feels the spring of its handle, whatever it touches
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Material& material = scene.materials[m];
     if (!touchable(scene, m)) continue;
     const std::string name = "material '" + material.name + "'", path = "material/" + material.name;

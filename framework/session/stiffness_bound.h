@@ -18,9 +18,8 @@ struct StiffnessBound {
   double period = 0;   ///< T [s]
   std::string role;    ///< its role
 };
+/// Of the devices of fingertips; where there are none, of all.
 StiffnessBound stiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
-/// The same for turning against a torque (Device::turnDamping) [N m/rad, N m s/rad].
-StiffnessBound turnStiffnessBound(const DeviceList& devices, const Plan& plan, const Scene& scene);
 
 /// Share of K_max that a material may have: disturbances then die out, even if the hand lets go.
 inline constexpr double kStableShare = 0.5;
@@ -41,9 +40,9 @@ DampingBound dampingBound(const DeviceList& devices, const Plan& plan, const Sce
 /// out without changing its sign from tick to tick. One warning W464 for each, with the bound.
 std::vector<Override> boundedDampings(const Scene& scene, const DampingBound& bound, Diagnostics& diagnostics);
 
-/// Overrides that lower the stiffness of the handle of each tool, in force and in turning, to kStableShare of the bounds;
-/// empty: none is above. One warning W454 for each, with the bound.
-std::vector<Override> boundedHandles(const Scene& scene, const StiffnessBound& bound, const StiffnessBound& turning,
+/// Overrides that lower the stiffness of the handle of each tool, in force and in turning (Device::turnDamping), to
+/// kStableShare of the bound of its own device; empty: none is above. One warning W454 for each, with the bound.
+std::vector<Override> boundedHandles(const DeviceList& devices, const Plan& plan, const Scene& scene,
                                      Diagnostics& diagnostics);
 
 /// The same for each touchable material, and its friction law (attributes in N/m); none where all devices hold tools,

@@ -19,6 +19,7 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kBalanced = 1e-6;    // residual relative to the coupling's limits
 constexpr double kMaxMotion = 0.002;  // of a point of the tool in a tick near bodies [m]
+constexpr double kAhead = 0.0005;     // beyond what the handle wants: a body may come towards the tool [m]
 constexpr double kShorter = 0.5;      // of a step that did not help
 
 double depthIn(const Primitive& primitive, const Vec3& p) {
@@ -77,7 +78,8 @@ class InnerSpheres final : public ToolRenderer {
   static Balance at(const ToolInput& input, const Pose& start, const Pose& X_WT, Held& held) noexcept;
   /// Moves the tool towards balance, by `margin` at most; it stays at the best pose on the way.
   static Balance settle(const ToolInput& input, const Pose& start, double margin, Held& held) noexcept;
-  void write(const Held& held, const Balance& balance, BoundedList<ToolForce>& forces, ToolState& state) const noexcept;
+  /// False: the tool touches more bodies than can be listed.
+  bool write(const Held& held, const Balance& balance, BoundedList<ToolForce>& forces, ToolState& state) const noexcept;
 
   const Scene& scene_;
   std::vector<SphereSolid> solids_;
@@ -96,17 +98,20 @@ InnerSpheres::InnerSpheres(const PluginElement& settings, const World& world) : 
     if (!primitiveOf(*body.haptic)) {
       for (InnerSphere& one : spheres) one.centre = body.haptic->X_BG * one.centre;
     }
-    if (!spheres.empty()) solids_.push_back({static_cast<std::int32_t>(b), SphereTree(std::move(spheres))});
+    if (spheres.empty())
+      throw std::invalid_argument("no sphere finds room in body '" + body.name + "': it is too thin");
+    solids_.push_back({static_cast<std::int32_t>(b), SphereTree(std::move(spheres))});
   }
   X_WB_.resize(solids_.size());
   for (std::size_t d = 0; d < scene_.devices.size(); ++d) {
     tools_.push_back(nullptr);
     if (!world.tools[d]) continue;
     const Tool& tool = *scene_.devices[d].tool;
-    tools_.back() = std::make_unique<Held>(Held{tool.coupling,
-                                                SphereTree(spheresIn(tool.geometry, world.tools[d].get(), count,
-                                                                     "the tool of '" + scene_.devices[d].role + "'")),
-                                                nullptr, radiusOf(*world.tools[d])});
+    const std::string whose = "the tool of '" + scene_.devices[d].role + "'";
+    std::vector<InnerSphere> spheres = spheresIn(tool.geometry, world.tools[d].get(), count, whose);
+    if (spheres.empty()) throw std::invalid_argument("no sphere finds room in " + whose + ": it is too thin");
+    tools_.back() =
+        std::make_unique<Held>(Held{tool.coupling, SphereTree(std::move(spheres)), nullptr, radiusOf(*world.tools[d])});
     Held& held = *tools_.back();
     held.pairs = std::make_unique<SpherePairs>(held.tree, solids_, settings.number("stiffness"),
                                                static_cast<std::size_t>(settings.number("pairs_per_tick")));
@@ -121,13 +126,14 @@ void InnerSpheres::touch(const ToolInput& input, BoundedList<ToolForce>& forces,
   state.points = 0;
   state.depth = 0;
   state.X_WT = input.X_WH;
-  if (held.pairs->clearance(start, X_WB_) > way) return;
-  const double margin = std::min(way, kMaxMotion);
-  state.coarse += held.pairs->gather(start, X_WB_, margin) ? 0 : 1;
+  if (held.pairs->clearance(start, X_WB_) > way + kAhead) return;
+  const double margin = std::min(way, kMaxMotion) + kAhead;
+  const bool whole = held.pairs->gather(start, X_WB_, margin);
   const Balance balance = settle(input, start, margin, held);
   state.late += balance.unbalanced <= kBalanced ? 0 : 1;
   state.X_WT = balance.X_WT;
-  write(held, balance, forces, state);
+  const bool complete = write(held, balance, forces, state);
+  state.coarse += whole && complete ? 0 : 1;
 }
 
 InnerSpheres::Balance InnerSpheres::at(const ToolInput& input, const Pose& start, const Pose& X_WT,
@@ -163,16 +169,17 @@ InnerSpheres::Balance InnerSpheres::settle(const ToolInput& input, const Pose& s
   return best;
 }
 
-void InnerSpheres::write(const Held& held, const Balance& balance, BoundedList<ToolForce>& forces,
+bool InnerSpheres::write(const Held& held, const Balance& balance, BoundedList<ToolForce>& forces,
                          ToolState& state) const noexcept {
   const auto small = [](const SpherePair& one) {
     return SmallForce{one.solid, one.p, one.f_W.normalized(), one.f_W, true};
   };
   GatheredForces gathered;
+  bool complete = true;
   for (const SpherePair& one : held.pairs->pairs()) {
     if (one.f_W.isZero()) continue;
     ++state.points;
-    state.coarse += gathered.weigh(small(one)) ? 0 : 1;
+    complete = gathered.weigh(small(one)) && complete;
     const double apart = (balance.X_WT * one.tool_T - one.body_W).norm();
     state.depth = std::max(state.depth, one.tool_radius + one.body_radius - apart);
   }
@@ -183,6 +190,7 @@ void InnerSpheres::write(const Held& held, const Balance& balance, BoundedList<T
       held.coupling.stiffness, -balance.of_handle,
       [&](std::uint32_t solid, ToolForce& force) { force.body = solids_[solid].body; }, forces);
   for (ToolForce& one : forces) one.p_W += balance.X_WT.p;
+  return complete;
 }
 
 std::string InnerSpheres::what() const {

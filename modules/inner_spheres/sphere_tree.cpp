@@ -1,12 +1,10 @@
 #include "modules/inner_spheres/sphere_tree.h"
 
 #include <algorithm>
-#include <numbers>
 
 namespace presa {
 
 SphereTree::SphereTree(std::vector<InnerSphere> spheres) {
-  for (const InnerSphere& one : spheres) volume_ += 4 * std::numbers::pi / 3 * std::pow(one.radius, 3);
   nodes_.resize(1);
   build(spheres, 0, spheres.size(), 0);
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMaxStep = 0.004;  // motion of a point in a tick: 4 m/s [m]
 constexpr double kAhead = 1e-4;     // contacts are found this far beyond the motion that the handle wants [m]
+constexpr int kLooks = 2;           // for contacts in a tick
 constexpr int kRounds = 4;          // in which pairs that hold turn out to slide
 
 Mat3 crossMatrix(const Vec3& v) noexcept {
@@ -50,6 +51,14 @@ Mat6 Cursor::massAt(const Quat& q_WT) const noexcept {
   return mass;
 }
 
+// The deepest ones find room.
+void Cursor::list(const CursorContact& contact) noexcept {
+  if (contacts_.add(contact) != nullptr) return;
+  CursorContact* highest = std::max_element(
+      contacts_.begin(), contacts_.end(), [](const CursorContact& a, const CursorContact& b) { return a.gap < b.gap; });
+  if (contact.gap < highest->gap) *highest = contact;
+}
+
 bool Cursor::findContacts(const Pose& X_WT, double margin) noexcept {
   contacts_.clear();
   const bool whole = pairs_.gather(X_WT, margin);
@@ -60,29 +69,26 @@ bool Cursor::findContacts(const Pose& X_WT, double margin) noexcept {
     pairs_.touch(pair, margin, manifold);
     for (int i = 0; i < manifold.count; ++i) {
       const Manifold::Point& point = manifold.points[static_cast<std::size_t>(i)];
-      contacts_.add({.p = point.p_W - X_WT.p,
-                     .nhat = pair.nhat_W,
-                     .gap = point.gap,
-                     .pair = static_cast<std::uint32_t>(pairs_.indexOf(pair)),
-                     .solid = pair.solid});
+      list({.p = point.p_W - X_WT.p,
+            .nhat = pair.nhat_W,
+            .gap = point.gap,
+            .pair = static_cast<std::uint32_t>(pairs_.indexOf(pair)),
+            .solid = pair.solid});
     }
   }
   return whole && contacts_.lost() == 0;
 }
 
 // Frictionless first; then with friction for those pressures, until every pair holds or slides as was thought.
-Pivots Cursor::solve(ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept {
-  const ContactProblem without = problem;
-  Pivots pivots = solveContacts(problem, contacts_, u);
-  sticking_.begin();
-  for (int round = 0; round < kRounds; ++round) {
-    problem = without;
+bool Cursor::solve(const ContactProblem& without, const CursorPoses& poses, Vec6& u) noexcept {
+  bool exact = solveContacts(without, contacts_, u).exact, as_thought = false;
+  for (int round = 0; round < kRounds && !as_thought; ++round) {
+    ContactProblem problem = without;
     sticking_.addTo(problem, poses, contacts_);
-    const Pivots again = solveContacts(problem, contacts_, u);
-    pivots = {pivots.count + again.count, pivots.exact && again.exact};
-    if (sticking_.update(u, poses, contacts_)) break;
+    exact = solveContacts(problem, contacts_, u).exact && exact;
+    as_thought = sticking_.update(u, poses, contacts_);
   }
-  return pivots;
+  return exact && as_thought;
 }
 
 Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB, Pose& X_WT) noexcept {
@@ -91,29 +97,41 @@ Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB,
   handle << input.v_WH, input.w_WH;
   const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, -h * handle, h);
   const Mat6 mass = massAt(X_WT.q);
-  ContactProblem problem{mass / (h * h) + force.stiffness, mass * v_ / h + force.wrench, law_.stiffness};
-  Vec6 u = problem.Q.ldlt().solve(problem.r);
-  const auto wayOf = [&](const Vec6& step) { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); };
-  const double wanted = std::min(wayOf(u), kMaxStep) + kAhead;
-
-  pairs_.place(input.touchables);
-  Step result;
-  contacts_.clear();
-  if (pairs_.clearance(X_WT) < wanted) result.whole = findContacts(X_WT, wanted);
+  const ContactProblem problem{mass / (h * h) + force.stiffness, mass * v_ / h + force.wrench, law_.stiffness};
   const CursorPoses poses{X_WT, X_WB};
+  pairs_.place(input.touchables);
+  sticking_.begin();
+  Vec6 u = problem.Q.ldlt().solve(problem.r);
+  const Step result = meet(problem, poses, u);
+  v_ = u / h;
+  const Pose moved = movedBy(X_WT, u);
   if (contacts_.empty()) {
     sticking_.letGo();
   } else {
-    result.exact = solve(problem, poses, u).exact;
+    sticking_.keep(moved, poses, contacts_);
   }
-  // along the way to a step that all planes allow, they allow every point
-  const double way = wayOf(u);
-  if (way > wanted && pairs_.clearance(X_WT) < way) u *= wanted / way;
-  v_ = u / h;
-  const Pose moved = movedBy(X_WT, u);
-  if (!contacts_.empty()) sticking_.keep(moved, poses, contacts_);
   of_handle_ = couplingForce(coupling_, input.X_WH, moved, u - h * handle, h).wrench;
   X_WT = moved;
+  return result;
+}
+
+// Contacts are found as far as the handle wants to move the tool; where they move it farther themselves, as a body does that
+// comes towards it, once more as far as that.
+Cursor::Step Cursor::meet(const ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept {
+  const auto wayOf = [&](const Vec6& step) { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); };
+  Step result;
+  double reach = wayOf(u) + kAhead;
+  for (int look = 0; look < kLooks; ++look) {
+    contacts_.clear();
+    if (pairs_.clearance(poses.X_WT) < reach) result.whole = findContacts(poses.X_WT, reach);
+    if (contacts_.empty()) return result;
+    result.exact = solve(problem, poses, u);
+    if (wayOf(u) <= reach) break;
+    reach = wayOf(u) + kAhead;
+  }
+  // along the way to a step that all planes allow, they allow every point
+  const double way = wayOf(u), most = std::min(reach, kMaxStep);
+  if (way > most) u *= most / way;
   return result;
 }
 

@@ -43,7 +43,11 @@ class Cursor {
  private:
   Mat6 massAt(const Quat& q_WT) const noexcept;
   bool findContacts(const Pose& X_WT, double margin) noexcept;
-  Pivots solve(ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept;
+  void list(const CursorContact& contact) noexcept;
+  /// Whether the contact problem was solved exactly, with friction that fits it.
+  bool solve(const ContactProblem& without, const CursorPoses& poses, Vec6& u) noexcept;
+  /// The step that the bodies allow, of one that the handle wants.
+  Step meet(const ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept;
 
   const ConvexSolid& tool_;
   const ToolCoupling& coupling_;

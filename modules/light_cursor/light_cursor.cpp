@@ -42,12 +42,6 @@ class LightCursor final : public ToolRenderer {
   std::vector<std::unique_ptr<Held>> held_;     // by device role; null: a fingertip
 };
 
-PartSettings partSettings(const PluginElement& settings) {
-  return {.cut = {.max_pieces = static_cast<std::size_t>(settings.number("max_pieces")),
-                  .max_error = settings.number("max_error")},
-          .max_vertices = static_cast<std::size_t>(settings.number("max_vertices"))};
-}
-
 LightCursor::LightCursor(const PluginElement& settings, const World& world)
     : scene_(world.scene),
       law_{settings.number("mass"), settings.number("stiffness"),

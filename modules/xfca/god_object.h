@@ -24,20 +24,26 @@ class GodObject {
   /// How the bodies push the tool.
   struct Push {
     Vec3 shift = Vec3::Zero();  ///< from `goal` to the surface, without the skin [m]
+    /// Of one plane.
     struct Part {
-      Vec3 nhat_W = Vec3::UnitZ();
-      double depth = 0;  ///< its share of shift, along nhat_W [m]
+      Vec3 nhat_W = Vec3::UnitZ();  ///< unit, into the tool
+      double depth = 0;             ///< its share of shift, along nhat_W [m]
     };
-    std::array<Part, 3> parts;
-    int count = 0;  ///< 0: no contact
+    std::array<Part, 3> parts;  ///< the first `count` are set
+    int count = 0;              ///< 0: no contact
   };
   /// At x, where the last slide() ended.
   Push pushOn(const Vec3& goal, const Vec3& x) const noexcept;
 
+  bool complete() const noexcept { return complete_; }  ///< since begin(), all planes counted in each pass
+  void begin() noexcept { complete_ = true; }           ///< a tick
+
  private:
-  HalfSpaces planesWithin(double within, double skin) const noexcept;
+  HalfSpaces planesWithin(double within, double skin, bool& all) const noexcept;
+  double deepest() const noexcept;
 
   ConvexPairs& pairs_;
+  bool complete_ = true;
 };
 
 }  // namespace presa

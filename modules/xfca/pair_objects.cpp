@@ -64,31 +64,36 @@ bool PairObjects::follow(NearParts& pair, const Pose& X_WH, const Pose& X_WB, Co
   return true;
 }
 
-void PairObjects::touch(const Pose& X_WH, const Touchables& touchables, BoundedList<ToolForce>& forces) noexcept {
+bool PairObjects::touch(const Pose& X_WH, const Touchables& touchables, BoundedList<ToolForce>& forces) noexcept {
   double longest = 0;
   for (const Contact& contact : contacts_) {
     if (contact.touching) longest = std::max(longest, contact.reach);
   }
-  pairs_.gather(X_WH, 2 * longest + 2 * kAbove);
+  const bool whole = pairs_.gather(X_WH, 2 * longest + 2 * kAbove);
   pairs_.separate(X_WH, 2 * kAbove);
+  ++tick_;
+  const double stiffness = law_.coupling.stiffness;
   for (const NearParts& near : pairs_.near()) {
     NearParts pair = near;
     Contact& contact = contacts_[pairs_.indexOf(pair)];
     const std::int32_t body = bodies_[pair.solid].body;
     const Pose X_WB = touchables.frameOf(body);
     contact.touching = contact.touching ? follow(pair, X_WH, X_WB, contact) : begin(pair, X_WH, X_WB, contact);
+    contact.tick = tick_;
     if (!contact.touching) continue;
     const Vec3 nhat = X_WB.q * contact.god_nhat_B, shift = X_WB * contact.god_B - kAbove * nhat - X_WH.p;
     contact.reach = shift.norm();
     forces.add({.body = body,
                 .p_W = (pair.on_body_W + pair.on_tool_W) / 2,
                 .nhat_W = nhat,
-                .f_W = law_.stiffness * shift,
-                .stiffness = law_.stiffness,
+                .f_W = saturated(stiffness * shift, law_.coupling.max_force),
+                .stiffness = stiffness,
                 .friction_static = friction_[pair.solid].mu_static,
                 .friction_dynamic = friction_[pair.solid].mu_dynamic,
                 .slips = contact.slipping});
   }
+  for (Contact& contact : contacts_) contact.touching = contact.touching && contact.tick == tick_;
+  return whole;
 }
 
 void PairObjects::letGo() noexcept {

@@ -3,6 +3,7 @@
 
 #include "framework/haptics/convex_pairs.h"
 #include "framework/haptics/tool_renderer.h"
+#include "framework/haptics/virtual_coupling.h"
 #include "modules/xfca/friction_circle.h"
 
 namespace presa {
@@ -14,22 +15,23 @@ class PairObjects {
  public:
   /// How a tool's handle and friction act.
   struct Law {
-    double stiffness;  ///< of the handle [N/m]
-    double curvature;  ///< smallest radius of curvature of the two parts' Minkowski sum [m]
-    double fraction;   ///< see heldByFriction
+    const ToolCoupling& coupling;  ///< of the handle
+    double curvature;              ///< smallest radius of curvature of the two parts' Minkowski sum [m]
+    double fraction;               ///< see heldByFriction
   };
   /// All must outlive it. `friction`: by body of `bodies`.
   PairObjects(ConvexPairs& pairs, const std::vector<ConvexSolid>& bodies,
               const std::vector<FrictionCoefficients>& friction, const Law& law)
       : pairs_(pairs), bodies_(bodies), friction_(friction), law_(law), contacts_(pairs.pairCount()) {}
 
-  /// Adds the forces of all pairs in contact. `X_WH`: the handle.
-  void touch(const Pose& X_WH, const Touchables& touchables, BoundedList<ToolForce>& forces) noexcept;
+  /// Adds the forces of all pairs in contact. `X_WH`: the handle. False: there were more pairs than can be listed.
+  bool touch(const Pose& X_WH, const Touchables& touchables, BoundedList<ToolForce>& forces) noexcept;
   void letGo() noexcept;  ///< no pair is in contact
 
  private:
   struct Contact {
     bool touching = false, slipping = false;
+    std::uint64_t tick = 0;                                   // of the last look
     double reach = 0;                                         // from the handle to the surface [m]
     Vec3 surface_B = Vec3::Zero(), god_B = Vec3::Zero();      // where the tool's origin would be and is [m]
     Vec3 nhat_B = Vec3::UnitZ(), god_nhat_B = Vec3::UnitZ();  // of their planes
@@ -45,6 +47,7 @@ class PairObjects {
   const std::vector<FrictionCoefficients>& friction_;
   Law law_;
   std::vector<Contact> contacts_;  // by pair
+  std::uint64_t tick_ = 0;
 };
 
 /// Height over a chord of length d of the smallest circle: how far a surface may fall away from its tangent plane, along

@@ -18,16 +18,17 @@ struct Place {
 /// centre moves without a jump as the tool leans. Thread: haptic; nonblocking except for construction.
 class Places {
  public:
-  static constexpr std::size_t kMax = 48;
+  static constexpr std::size_t kMaxOfPart = 16,  ///< places of a part of the push; more are left out
+      kMax = 3 * kMaxOfPart;                     ///< places of a push
 
   Places(ConvexPairs& pairs, const std::vector<ConvexSolid>& bodies) : pairs_(pairs), bodies_(bodies), all_(kMax) {}
 
-  /// For the pairs as at the last separate(). False: there are more than kMax.
-  bool find(const GodObject::Push& push) noexcept;
-  const BoundedList<Place>& all() const noexcept { return all_; }
+  /// For the pairs as at the last separate().
+  void find(const GodObject::Push& push) noexcept;
+  const BoundedList<Place>& all() const noexcept { return all_; }  ///< of the last push
 
  private:
-  void findAlong(const GodObject::Push::Part& part, double depth) noexcept;
+  void findAlong(const GodObject::Push::Part& part) noexcept;
 
   ConvexPairs& pairs_;
   const std::vector<ConvexSolid>& bodies_;

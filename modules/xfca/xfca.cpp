@@ -45,12 +45,13 @@ class Xfca final : public ToolRenderer {
     GodObject::Push push;
     Vec3 lag = Vec3::Zero();  // of the god-object behind where it would be without friction [m]
     FrictionCoefficients friction{0, 0};
-    bool arrived = true;
+    bool arrived = true, whole = true;
   };
   void readFriction(const ToolInput& input) noexcept;
   /// Moves the god-object.
   Contact settle(const ToolInput& input, Held& held, Vec3& god) const noexcept;
-  void write(const Contact& contact, Held& held, BoundedList<ToolForce>& forces, ToolState& state) const noexcept;
+  void write(const Contact& contact, const Vec3& p_WH, Held& held, BoundedList<ToolForce>& forces,
+             ToolState& state) const noexcept;
   void touchAsPrinted(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces, ToolState& state) noexcept;
   /// Of the places, weighted by their depths.
   FrictionCoefficients frictionAt(const BoundedList<Place>& places) const noexcept;
@@ -67,12 +68,6 @@ class Xfca final : public ToolRenderer {
   std::vector<FrictionCoefficients> friction_of_;  // by body of the scene
   std::vector<std::unique_ptr<Held>> held_;        // by device role; null: a fingertip
 };
-
-PartSettings partSettings(const PluginElement& settings) {
-  return {.cut = {.max_pieces = static_cast<std::size_t>(settings.number("max_pieces")),
-                  .max_error = settings.number("max_error")},
-          .max_vertices = static_cast<std::size_t>(settings.number("max_vertices"))};
-}
 
 Xfca::Xfca(const PluginElement& settings, const World& world)
     : scene_(world.scene),
@@ -91,7 +86,7 @@ Xfca::Xfca(const PluginElement& settings, const World& world)
     held.coupling = scene_.devices[d].tool->coupling;
     held.places = std::make_unique<Places>(held.pairs, bodies_);
     if (!printed_) continue;
-    const PairObjects::Law law{held.coupling.stiffness, settings.number("curvature"),
+    const PairObjects::Law law{held.coupling, settings.number("curvature"),
                                fraction(held.coupling, 1 / scene_.rates.haptic)};
     held.printed = std::make_unique<PairObjects>(held.pairs, bodies_, friction_, law);
   }
@@ -132,13 +127,12 @@ void Xfca::touch(const ToolInput& input, BoundedList<ToolForce>& forces, ToolSta
 
   const Vec3& handle = input.X_WH.p;
   Vec3 god = state.alive ? input.touchables.frameOf(held.frame) * held.p_A : handle;
-  const bool whole = held.pairs.gather({god, input.X_WH.q}, kRange * (handle - god).norm() + kRangeAtRest);
   held.frame = kNoBody;
   const Contact contact = settle(input, held, god);
-  state.coarse += whole && held.places->all().lost() == 0 ? 0 : 1;
+  state.coarse += contact.whole && held.god_object.complete() ? 0 : 1;
   state.late += contact.arrived ? 0 : 1;
   state.X_WT = {god, input.X_WH.q};
-  if (held.touching) write(contact, held, forces, state);
+  if (held.touching) write(contact, handle, held, forces, state);
   held.p_A = input.touchables.frameOf(held.frame).inverseTimes(god);
 }
 
@@ -146,25 +140,37 @@ Xfca::Contact Xfca::settle(const ToolInput& input, Held& held, Vec3& god) const 
   const Quat& q = input.X_WH.q;
   const Vec3& handle = input.X_WH.p;
   Contact contact;
+  held.god_object.begin();
   // all planes once, as far as any of the motions below can want them
-  held.pairs.separate({god, q}, kRange * (handle - god).norm() + kRangeAtRest);
+  const auto look = [&] {
+    const double range = kRange * (handle - god).norm() + kRangeAtRest;
+    contact.whole = held.pairs.gather({god, q}, range) && contact.whole;
+    held.pairs.separate({god, q}, range);
+  };
+  look();
   // turned with the handle, and where bodies move against each other, it may have to give way first
-  contact.arrived = held.god_object.slide(q, god, god);
+  const Vec3 start = god;
+  contact.arrived = held.god_object.slide(q, start, god);
+  if ((god - start).norm() > kRangeAtRest / 2) look();
   Vec3 surface = god;
   contact.arrived = held.god_object.slide(q, handle, surface) && contact.arrived;
   contact.push = held.god_object.pushOn(handle, surface);
   held.places->find(contact.push);
   const bool touched_before = held.touching;
-  held.touching = !held.places->all().empty();
+  held.touching = !held.places->all().empty() && contact.push.shift.norm() > 0;
   if (!held.touching || !touched_before) {
     god = surface;
     held.slipping = false;
     return contact;
   }
   contact.friction = frictionAt(held.places->all());
-  const Vec3 held_at = heldByFriction(surface, god, contact.push.shift.norm(), contact.friction,
-                                      fraction(held.coupling, input.period), held.slipping);
-  if (held.slipping) {
+  // friction holds it along the surface: where the surface has fallen away below it, it follows
+  const double depth = contact.push.shift.norm(), above = (god - surface).dot(contact.push.shift) / depth;
+  const bool is_above = above > GodObject::kSkin;
+  const Vec3 along = is_above ? Vec3(god - above / depth * contact.push.shift) : god;
+  const Vec3 held_at =
+      heldByFriction(surface, along, depth, contact.friction, fraction(held.coupling, input.period), held.slipping);
+  if (held.slipping || is_above) {
     god = surface;
     contact.arrived = held.god_object.slide(q, handle + held_at - surface, god) && contact.arrived;
   }
@@ -172,18 +178,28 @@ Xfca::Contact Xfca::settle(const ToolInput& input, Held& held, Vec3& god) const 
   return contact;
 }
 
-void Xfca::write(const Contact& contact, Held& held, BoundedList<ToolForce>& forces, ToolState& state) const noexcept {
+void Xfca::write(const Contact& contact, const Vec3& p_WH, Held& held, BoundedList<ToolForce>& forces,
+                 ToolState& state) const noexcept {
   const BoundedList<Place>& places = held.places->all();
   const Vec3 shift = contact.push.shift + contact.lag;
   const ToolCoupling& coupling = held.coupling;
-  const double scale = saturated(coupling.stiffness * shift, coupling.max_force).norm() / shift.norm();
+  const double length = shift.norm();
+  if (!(length > 0)) return;
   double sum = 0;
+  Vec3 torque = Vec3::Zero();  // about the handle, without a limit
   for (const Place& place : places) sum += place.depth;
+  for (const Place& place : places) {
+    const Vec3 force = coupling.stiffness * (place.depth * place.nhat_W + place.depth / sum * contact.lag);
+    torque += (place.p_W + contact.lag - p_WH).cross(force);
+  }
+  double scale = saturated(coupling.stiffness * shift, coupling.max_force).norm() / length;
+  if (torque.norm() > 0)
+    scale = std::min(scale, coupling.stiffness * saturated(torque, coupling.max_torque).norm() / torque.norm());
   const Place* deepest = places.begin();
   for (const Place& place : places) {
     const double share = place.depth / sum;
     forces.add({.body = place.body,
-                .p_W = place.p_W,
+                .p_W = place.p_W + contact.lag,
                 .nhat_W = place.nhat_W,
                 .f_W = scale * (place.depth * place.nhat_W + share * contact.lag),
                 .stiffness = coupling.stiffness * share,
@@ -198,7 +214,7 @@ void Xfca::write(const Contact& contact, Held& held, BoundedList<ToolForce>& for
 
 void Xfca::touchAsPrinted(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces,
                           ToolState& state) noexcept {
-  held.printed->touch(input.X_WH, input.touchables, forces);
+  state.coarse += held.printed->touch(input.X_WH, input.touchables, forces) ? 0 : 1;
   state.X_WT = input.X_WH;
   for (const ToolForce& one : forces) state.X_WT.p += one.f_W / held.coupling.stiffness;
   state.points = static_cast<std::uint32_t>(forces.size());

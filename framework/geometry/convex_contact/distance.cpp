@@ -16,7 +16,7 @@ constexpr std::size_t kSearchedVertices = 24;  // looked at one by one
 constexpr int kMaxIterations = 64;
 constexpr double kConverged = 1e-8;  // what another support point would gain, in relation to the distance
 constexpr double kTouching = 1e-12;  // distance in relation to the coordinates
-constexpr double kNoInside = 1e-12;      // volume of a tetrahedron without inside, in relation to its edges
+constexpr double kNoInside = 1e-12;  // volume of a tetrahedron without inside, in relation to its edges
 
 /// A point of B - A, and the points that it comes from.
 struct Vertex {
@@ -115,7 +115,34 @@ Vertex supportAgainst(const PlacedSupport& A, const PlacedSupport& B, const Vec3
 
 }  // namespace
 
-SupportOf::SupportOf(Hull hull) : hull_(std::move(hull)) {
+namespace {
+
+/// Without the vertices that no face has, such as those within merged triangles: a search along the edges would begin there
+/// and not get away.
+Hull withoutLoosePoints(Hull hull) {
+  if (hull.faces.empty()) return hull;
+  std::vector<std::int32_t> place(hull.vertices.size(), -1);
+  std::vector<Vec3> kept;
+  for (Hull::Face& face : hull.faces) {
+    for (std::int32_t& v : face.loop) {
+      if (place[index(v)] < 0) {
+        place[index(v)] = static_cast<std::int32_t>(kept.size());
+        kept.push_back(hull.vertices[index(v)]);
+      }
+      v = place[index(v)];
+    }
+  }
+  for (Hull::Edge& edge : hull.edges) {
+    edge.from = place[index(edge.from)];
+    edge.to = place[index(edge.to)];
+  }
+  hull.vertices = std::move(kept);
+  return hull;
+}
+
+}  // namespace
+
+SupportOf::SupportOf(Hull hull) : hull_(withoutLoosePoints(std::move(hull))) {
   if (hull_.cylinder || hull_.vertices.size() <= kSearchedVertices) return;
   first_.assign(hull_.vertices.size() + 1, 0);
   for (const Hull::Edge& edge : hull_.edges) {
@@ -173,7 +200,7 @@ SupportingPlane planeAlong(const PlacedSupport& A, const PlacedSupport& B, const
 }
 
 SupportingPlane planeOfFaces(const PlacedSupport& A, const PlacedSupport& B, DistanceMemory& memory) noexcept {
-  const Vec3 way = B.p - A.p;
+  const Vec3 way = B.R * B.support.hull().centre + B.p - A.R * A.support.hull().centre - A.p;
   SupportingPlane best = planeAlong(A, B, way.norm() > 0 ? Vec3(way.normalized()) : Vec3(Vec3::UnitZ()), memory);
   const auto consider = [&](const Vec3& nhat_AB) {
     const SupportingPlane plane = planeAlong(A, B, nhat_AB, memory);
@@ -196,8 +223,9 @@ ConvexDistance distance(const PlacedSupport& A, const PlacedSupport& B, double b
     scale = std::max(scale, vertex.w.squaredNorm());
     const double bound = v.dot(vertex.w), length = v.norm();  // all of B - A lies beyond bound / length along v
     if (bound > (beyond + radii) * length) {
-      memory.nhat_AB = v / length;
-      return {ConvexDistance::Kind::kBeyond, memory.nhat_AB, bound / length - radii};
+      const Vec3 nhat = memory.nhat_AB = v / length;
+      return {ConvexDistance::Kind::kBeyond, nhat, bound / length - radii, vertex.on_a + A.support.hull().radius * nhat,
+              vertex.on_b - B.support.hull().radius * nhat};
     }
     if (simplex.count > 0 && (length * length - bound <= kConverged * length * length || has(simplex, vertex.w))) break;
     const Simplex before = simplex;

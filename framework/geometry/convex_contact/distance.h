@@ -34,7 +34,7 @@ struct ConvexDistance {
   /// Result of distance().
   enum class Kind : std::uint8_t {
     kNearest,  ///< all members are set
-    kBeyond,   ///< farther apart than was asked for: `gap` is a lower bound along `nhat_AB`, the points are not set
+    kBeyond,   ///< farther apart than was asked for: `gap` is a lower bound, that of a plane and its farthest points
     kOverlap,  ///< the solids overlap without their radii: nothing is set
   };
   Kind kind = Kind::kOverlap;    ///< which members are set

@@ -19,6 +19,8 @@ constexpr double kOblique = 1e-4;        // 1 - cosine between a face and the wa
 constexpr double kParallelEdges = 1e-6;  // squared sine of edges that span no plane
 constexpr double kThrough = 1e-7;        // distance from a hull's centre of an edge through it, in relation to the hull
 constexpr std::size_t kMaxPolygon = 64;
+constexpr std::size_t kFewCorners = 32;  // to which the outline of a face with more than kMaxPolygon is thinned
+constexpr double kSameGap = 1e-6;        // of contacts, whatever the size of the hulls [m]
 
 double sizeOf(const Hull& hull) { return (hull.vertices.front() - hull.centre).norm() + hull.radius; }
 
@@ -128,6 +130,11 @@ std::size_t faceAlong(const Hull& hull, const Vec3& nhat) {
   return static_cast<std::size_t>(std::max_element(hull.faces.begin(), hull.faces.end(), less) - hull.faces.begin());
 }
 
+/// Every so many corners of a face stand for all.
+std::size_t strideOf(const Hull::Face& face) {
+  return face.loop.size() > kMaxPolygon ? (face.loop.size() + kFewCorners - 1) / kFewCorners : 1;
+}
+
 /// The outline of the face along `nhat`; of a segment or point, itself.
 Polygon outlineAlong(const Hull& hull, const Vec3& nhat) {
   Polygon polygon;
@@ -135,7 +142,8 @@ Polygon outlineAlong(const Hull& hull, const Vec3& nhat) {
     for (const Vec3& v : hull.vertices) polygon.add(v);
     return polygon;
   }
-  for (const std::int32_t v : hull.faces[faceAlong(hull, nhat)].loop) polygon.add(hull.vertices[index(v)]);
+  const Hull::Face& face = hull.faces[faceAlong(hull, nhat)];
+  for (std::size_t i = 0; i < face.loop.size(); i += strideOf(face)) polygon.add(hull.vertices[index(face.loop[i])]);
   return polygon;
 }
 
@@ -169,9 +177,10 @@ void reduce(std::array<Manifold::Point, kMaxPolygon>& points, std::size_t& count
 void clipAlong(const Hull& reference, const Hull& other, const Vec3& nhat, double margin, double sign, Manifold& out) {
   const Hull::Face& face = reference.faces[faceAlong(reference, nhat)];
   Polygon polygon = outlineAlong(other, -nhat);
-  for (std::size_t i = 0; i < face.loop.size() && polygon.count > 0; ++i) {
+  const std::size_t stride = strideOf(face);
+  for (std::size_t i = 0; i < face.loop.size() && polygon.count > 0; i += stride) {
     const Vec3& p = reference.vertices[index(face.loop[i])];
-    const Vec3& q = reference.vertices[index(face.loop[(i + 1) % face.loop.size()])];
+    const Vec3& q = reference.vertices[index(face.loop[i + stride < face.loop.size() ? i + stride : 0])];
     const Vec3 outward = (q - p).cross(nhat);
     clip(polygon, outward, outward.dot(p));
   }
@@ -240,6 +249,24 @@ double leastGap(const Manifold& manifold) {
   return gap;
 }
 
+/// Two segments or points with radii: the nearest points, and the ends of the stretch along which they lie side by side.
+void touchRound(const Hull& A, const Hull& B, const Vec3& on_a, const Vec3& on_b, double margin, Manifold& out) {
+  const auto add = [&](const Vec3& p, const Vec3& q, double gap) {
+    if (gap <= margin) out.points[static_cast<std::size_t>(out.count++)] = {(p + q) / 2, gap};
+  };
+  const double gap = out.nhat_AB_W.dot(on_b - on_a);
+  const Vec3 &a = A.vertices.front(), along = A.vertices.back() - a;
+  const double length = along.squaredNorm();
+  const bool are_segments = length > 0 && B.vertices.size() > 1;
+  for (std::size_t i = 0; are_segments && i < B.vertices.size(); ++i) {
+    const Vec3& end = B.vertices[i];
+    const Vec3 p = a + std::clamp((end - a).dot(along) / length, 0.0, 1.0) * along;
+    const Vec3 q = closestOnSegment(p, B.vertices.front(), B.vertices.back());
+    add(p, q, (q - p).norm() - A.radius - B.radius);
+  }
+  if (leastGap(out) > gap + kSameGap) add(on_a, on_b, gap);
+}
+
 }  // namespace
 
 void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3& on_a, const Vec3& on_b, double margin,
@@ -248,7 +275,7 @@ void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3&
   out.nhat_AB_W = nhat_AB_W;
   const bool a_is_round = A.faces.empty(), b_is_round = B.faces.empty();
   const double gap = nhat_AB_W.dot(on_b - on_a);
-  if (a_is_round && b_is_round) return collideRound(A, B, margin, out);
+  if (a_is_round && b_is_round) return touchRound(A, B, on_a, on_b, margin, out);
   const auto along = [&](const Hull& hull, const Vec3& nhat) {
     return hull.faces[faceAlong(hull, nhat)].nhat.dot(nhat);
   };
@@ -261,8 +288,8 @@ void touchAlong(const Hull& A, const Hull& B, const Vec3& nhat_AB_W, const Vec3&
     clipAlong(B, A, -nhat_AB_W, margin, -1, out);
   }
   // faces that do not cover each other at the nearest points
-  if (gap > margin || leastGap(out) <= gap + kPrefer * std::min(sizeOf(A), sizeOf(B))) return;
-  out.count = std::min(out.count, Manifold::kMaxPoints - 1) + 1;
+  if (gap > margin || leastGap(out) <= gap + std::min(kSameGap, kPrefer * std::min(sizeOf(A), sizeOf(B)))) return;
+  if (out.count < Manifold::kMaxPoints) ++out.count;
   out.points[static_cast<std::size_t>(out.count) - 1] = {(on_a + on_b) / 2, gap};
 }
 

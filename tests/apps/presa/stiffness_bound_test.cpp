@@ -83,13 +83,9 @@ TEST(StiffnessBound, HandlesOfToolsAreHeldToItInForceAndInTurning) {
   Loaded loaded = loadWorld({source("config/scenes/square_peg.xml"), "", {}}, {}, diagnostics);
   ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   const Scene& scene = loaded.world->scene;
-  EXPECT_TRUE(boundedHandles(scene, stiffnessBound(loaded.devices, loaded.plan, scene),
-                             turnStiffnessBound(loaded.devices, loaded.plan, scene), diagnostics)
-                  .empty());
+  EXPECT_TRUE(boundedHandles(loaded.devices, loaded.plan, scene, diagnostics).empty());
   loaded.devices[0] = std::make_unique<TurningHandle>(std::move(loaded.devices[0]));
-  const StiffnessBound turning = turnStiffnessBound(loaded.devices, loaded.plan, scene);
-  EXPECT_NEAR(turning.stiffness, 2, 1e-12);
-  const auto lowered = boundedHandles(scene, {}, turning, diagnostics);
+  const auto lowered = boundedHandles(loaded.devices, loaded.plan, scene, diagnostics);
   ASSERT_EQ(lowered.size(), 1U);
   EXPECT_EQ(lowered[0].path, "device/peg/tool/turn_stiffness");
   EXPECT_EQ(std::stod(lowered[0].value), 1);

@@ -143,6 +143,29 @@ TEST(ConvexDistance, OverlapHasTheFaceOfLeastDepth) {
   EXPECT_NEAR(face.nhat_AB.y(), 1, 1e-12);
 }
 
+// The middle of a merged face is in no edge: a search along the edges must not begin there.
+TEST(SupportOf, PassesOverPointsWithinFaces) {
+  TriMesh mesh = makeCylinder(0.02, 0.04);
+  Hull hull = meshHull(mesh, 1e-5, 2000).value();
+  hull.vertices.insert(hull.vertices.begin(), Vec3(0, 0, 0.02));  // of no face
+  for (Hull::Face& face : hull.faces) {
+    for (std::int32_t& v : face.loop) ++v;
+  }
+  for (Hull::Edge& edge : hull.edges) {
+    ++edge.from;
+    ++edge.to;
+  }
+  const SupportOf support(hull);
+  Random random;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 d = random.inCube(1);
+    double farthest = -1;
+    for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, d.dot(v));
+    std::int32_t near = 0;
+    EXPECT_NEAR(support(d, near).dot(d), farthest, 1e-12) << trial;
+  }
+}
+
 // The memory of a moving pair changes the way to the answer, not the answer.
 TEST(ConvexDistance, WithItsMemoryIsAsWithout) {
   Random random;

@@ -121,6 +121,34 @@ TEST(InnerSpheres, ACogOnACogIsHeldWithinItsLimits) {
   EXPECT_LT(largest, 8);
 }
 
+// A ball that comes towards a still tool meets it.
+TEST(InnerSpheres, ABodyThatMovesIntoARestingToolPushesIt) {
+  OneTool tool(
+      spheresWorld(R"(<tool><sphere radius="0.01"/></tool>)",
+                   R"(<body name="ball" material="smooth" pos="0 0 -0.04"><haptic><sphere radius="0.02"/></haptic>
+    <physics mass="1"><sphere radius="0.02"/></physics></body>)"));
+  const Pose hand{{0, 0, 0}, Quat::Identity()};
+  tool.rest(hand, 5);
+  for (int i = 0; i < 150; ++i) {
+    BodyMotion& ball = tool.objects().bodies[0];
+    ball.X_WB_begin.p.z() = ball.X_WB_end.p.z() = -0.04 + 0.0001 * i;
+    tool.tick(hand);
+  }
+  EXPECT_GT(tool.rest(hand, 5).f_H_W.z(), 2);
+}
+
+TEST(InnerSpheres, APlateFillsEvenly) {
+  const Vec3 half(0.1, 0.1, 0.002);
+  const auto depth = [&](const Vec3& p) { return (half - p.cwiseAbs()).minCoeff(); };
+  double left = 0, right = 0;
+  for (const InnerSphere& one : packSpheres(depth, {-half, half}, 300)) (one.centre.x() < 0 ? left : right) += 1;
+  EXPECT_NEAR(left / (left + right), 0.5, 0.1);
+}
+
+TEST(InnerSpheres, AToolTooThinForAnySphereIsRefused) {
+  EXPECT_THROW(OneTool(spheresWorld(R"(<tool><box size="0.00001 0.00001 0.1"/></tool>)", test::slab())), InputError);
+}
+
 TEST(InnerSpheres, AMeshWithoutAnInsideIsRefused) {
   TriMesh sheet = makeBox({0.1, 0.1, 0.1});
   sheet.triangles.resize(10);

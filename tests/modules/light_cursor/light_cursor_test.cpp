@@ -204,6 +204,38 @@ TEST(LightCursor, AToolThatStartsInsideIsPushedOutWithinItsLimits) {
   EXPECT_NEAR(tool.state().X_WT.p.z(), 0.02, 1e-4);
 }
 
+// A wall that comes at 1 m/s takes the tool along, up to the limits of the handle.
+TEST(LightCursor, ABodyThatMovesIntoARestingToolPushesIt) {
+  OneTool tool(cursorWorld(
+      kBlock, R"(<body name="wall" material="smooth" pos="0 0 -0.06"><haptic><box size="0.2 0.2 0.1"/></haptic>
+    <physics mass="1"><box size="0.2 0.2 0.1"/></physics></body>)"));
+  const Pose hand{{0, 0, 0.02}, Quat::Identity()};
+  tool.rest(hand, 5);
+  for (int i = 0; i < 50; ++i) {
+    BodyMotion& wall = tool.objects().bodies[0];
+    wall.X_WB_begin.p.z() = wall.X_WB_end.p.z() = -0.06 + 0.001 * i;
+    const FingerContact& contact = tool.tick(hand);
+    ASSERT_LT(contact.f_H_W.norm(), 8);
+    const double below = wall.X_WB_end.p.z() + 0.05 - (tool.state().X_WT.p.z() - 0.01);
+    EXPECT_LT(below, 2e-4) << i;
+  }
+  EXPECT_GT(tool.state().X_WT.p.z(), 0.045);
+}
+
+// Touched from above long ago, a block that comes from below is pushed back down.
+TEST(LightCursor, RemembersNoPlaneOfLongAgo) {
+  OneTool tool(cursorWorld(
+      kBlock,
+      R"(<body name="box" fixed="true" material="smooth"><haptic><box size="0.06 0.06 0.06"/></haptic></body>)"));
+  tool.rest({{0, 0, 0.05}, Quat::Identity()}, 5);
+  tool.rest({{0, 0, 0.039}, Quat::Identity()}, 50);
+  for (const Vec3& p : {Vec3(0, 0, 0.08), Vec3(0.2, 0, 0), Vec3(0.2, 0, -0.1), Vec3(0, 0, -0.08)})
+    tool.rest({p, Quat::Identity()}, 300);
+  const FingerContact& contact = tool.rest({{0, 0, -0.038}, turned({1, 1, 0}, 40)}, 200);
+  EXPECT_LT(tool.state().X_WT.p.z(), -0.038);
+  EXPECT_LT(contact.f_H_W.z(), -1);
+}
+
 // Oracle: mu F times the mean distance of the corners, 25 mm, in each radian.
 TEST(LightCursor, ASpinOfTenRadiansASecondCostsEnergy) {
   OneTool tool(cursorWorld(R"(<tool turn_stiffness="2"><box size="0.04 0.03 0.02"/></tool>)", slab("rough")));

@@ -116,6 +116,49 @@ TEST(Xfca, EachWallOfAGrooveBearsItsShare) {
   EXPECT_NEAR(right.norm(), 2 / std::sqrt(2.0), 1e-5);
 }
 
+// Walls 60 degrees apart: the handle may be above one of the planes that push. The sum is the spring of the handle, all the
+// way across.
+TEST(Xfca, ASharpGroovePushesBackTheWholeSpring) {
+  const auto wall = [](const std::string& name, double turn, const Vec3& at) {
+    return "<body name=\"" + name + R"(" fixed="true" material="smooth" pos=")" + std::to_string(at.x()) + " 0 " +
+           std::to_string(at.z()) + R"(" euler_deg="0 )" + std::to_string(turn) +
+           R"( 0"><haptic><box size="0.2 0.2 0.04"/></haptic></body>)";
+  };
+  const Quat left = turned({0, 1, 0}, 60), right = turned({0, 1, 0}, -60);
+  OneTool tool(
+      xfcaWorld(kBall, wall("left", 60, left * Vec3(0, 0, -0.02)) + wall("right", -60, right * Vec3(0, 0, -0.02))));
+  const double bottom = 0.01 / std::cos(EIGEN_PI / 3);
+  tool.tick({{0, 0, bottom + 0.01}, Quat::Identity()});
+  Vec3 last = tool.rest({{-0.004, 0, bottom - 0.001}, Quat::Identity()}, 20).f_H_W;
+  for (int i = 0; i <= 800; ++i) {
+    const Vec3 hand(-0.004 + 1e-5 * i, 0, bottom - 0.001);
+    const Vec3 force = tool.tick({hand, Quat::Identity()}).f_H_W;
+    EXPECT_LT((force - kHandle * (tool.state().X_WT.p - hand)).norm(), 0.01) << i << ": but for the skin";
+    EXPECT_LT((force - last).norm(), 0.03) << i;
+    last = force;
+  }
+}
+
+// A block that was pressed, tilted and tilted back is where it was: friction holds it along the surface, not above it.
+TEST(Xfca, TiltedThereAndBackItPressesAsBefore) {
+  OneTool tool(xfcaWorld(kBlock, slab("rough")));
+  tool.tick({{0, 0, 0.02}, Quat::Identity()});
+  const double before = tool.rest({{0, 0, 0.007}, Quat::Identity()}, 20).f_H_W.z();
+  for (int i = 0; i <= 600; ++i) tool.tick({{0, 0, 0.007}, turned({0, 1, 0}, i < 300 ? 0.02 * i : 0.02 * (600 - i))});
+  EXPECT_NEAR(tool.rest({{0, 0, 0.007}, Quat::Identity()}, 2).f_H_W.z(), before, 1e-6);
+  EXPECT_NEAR(tool.state().X_WT.p.z(), 0.01, 3e-6);
+}
+
+// Oracle: the tip of a needle at 10 rad/s goes 1 mm in a tick, twice the plate's thickness: it stays on its side.
+TEST(Xfca, ANeedleDoesNotTurnThroughAThinPlate) {
+  OneTool tool(xfcaWorld(
+      R"(<tool stiffness="1000"><box size="0.0005 0.0005 0.2"/></tool>)",
+      R"(<body name="plate" fixed="true" material="smooth" pos="0.05 0 -0.05"><haptic><box size="0.0005 0.2 0.3"/></haptic></body>)"));
+  tool.rest({{0, 0, 0}, Quat::Identity()}, 5);
+  for (int i = 0; i <= 157; ++i) tool.tick({{0, 0, 0}, turned({0, 1, 0}, 0.573 * i)});
+  EXPECT_LT(tool.state().X_WT.p.x(), -0.04) << "pushed back by the tip, which is 100 mm from the handle";
+}
+
 // Two blocks side by side are one floor. Each pair of parts by itself, as printed, loses it: below the seam the two push
 // the ball apart sideways, and nothing pushes it up.
 std::pair<double, double> forcesOverASeam(const std::string& settings) {
