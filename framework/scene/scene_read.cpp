@@ -212,7 +212,7 @@ DeviceRole readDevice(const Element& element, const std::string& directory) {
     device.limits.watchdog_ms = limits.number("watchdog_ms", device.limits.watchdog_ms);
   }
   if (std::optional<Geometry> tool = readGeometry(element, "tool", directory)) {
-    const Element& told = element.children("tool")[0];
+    const Element told = element.children("tool")[0];
     device.tool = {*std::move(tool), readCoupling(told)};
     if (told.hasAttribute("put_down")) device.tool->put_down = static_cast<int>(told.number("put_down", 0));
   }
