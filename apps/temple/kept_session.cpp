@@ -41,11 +41,11 @@ std::string logFile(const std::string& folder) { return (std::filesystem::path(f
 std::string keptText(const KeptSession& kept) {
   Json blocks = Json::array();
   for (const Pose& X : kept.X_WB) blocks.push_back(poseJson(X));
-  return Json{{"presa_temple", kFormat}, {"size", kept.size},       {"parameters", kept.parameters},
-              {"seed", kept.seed},       {"spent_s", kept.elapsed}, {"placed", kept.placed},
-              {"blocks", blocks}}
-             .dump(1) +
-         "\n";
+  Json json{{"presa_temple", kFormat}, {"size", kept.size},       {"parameters", kept.parameters},
+            {"seed", kept.seed},       {"spent_s", kept.elapsed}, {"placed", kept.placed},
+            {"blocks", blocks}};
+  if (kept.tenon) json["tenon"] = true;
+  return json.dump(1) + "\n";
 }
 
 KeptSession keptOf(const std::string& text) {
@@ -53,6 +53,7 @@ KeptSession keptOf(const std::string& text) {
   if (json.at("presa_temple").get<int>() != kFormat)
     throw std::runtime_error("is written in another format than " + std::to_string(kFormat));
   KeptSession kept{json.at("size"), json.at("parameters"), json.at("seed"), json.at("spent_s"), json.at("placed"), {}};
+  kept.tenon = json.value("tenon", false);
   for (const Json& block : json.at("blocks")) kept.X_WB.push_back(poseOf(block));
   return kept;
 }

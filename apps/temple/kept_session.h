@@ -15,6 +15,7 @@ struct KeptSession {
   double elapsed = 0;      ///< elapsed assembly time [s]
   int placed = 0;          ///< number of blocks at their goals
   std::vector<Pose> X_WB;  ///< pose of each block
+  bool tenon = false;      ///< capitals have tenons
 };
 
 /// Default folder of saved visits: $XDG_STATE_HOME/presa/temple, or ~/.local/state/presa/temple.

@@ -68,6 +68,8 @@ std::vector<Vec3> cornersOf(const Block& block, const Pose& X_WB) {
   } else {
     corners = block.physics_mesh.vertices;
   }
+  for (const Block::Part& part : block.parts)
+    corners.insert(corners.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
   for (Vec3& corner : corners) corner = X_WB * corner;
   return corners;
 }

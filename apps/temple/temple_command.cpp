@@ -55,7 +55,7 @@ struct Arguments {
   double attract = 0;       // [s]; 0: never
   bool attracting = false;  // no visitor came during the previous ruins
   bool no_help = false, voice = false, quiet = false, one_task = false, show_counts = false, sound = false;
-  bool painted = false;
+  bool painted = false, tenon = false;
   bool assembled = false, overwrite = false, automatic = false, lockstep = false, go_on = false, allow_no_rt = false;
 
   /// True when the building is to be assembled, rather than only drawn or written.
@@ -320,13 +320,16 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
     kept = temple::readKept(kept_file, diagnostics);
     if (kept) {
       std::tie(a.size, a.plan) = temple::sizeAndPlan(kept->size);
-      std::tie(a.parameters, a.seed) = std::tie(kept->parameters, kept->seed);
+      std::tie(a.parameters, a.seed, a.tenon) = std::tie(kept->parameters, kept->seed, kept->tenon);
     }
   }
   const std::string building_name = temple::buildingName(a.size, a.plan);
-  const temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(building_name, diagnostics)
-                                                               : temple::readProportions(a.parameters, diagnostics);
-  const AssemblyWords words = temple::shippedWords(a.language, diagnostics);
+  temple::Proportions proportions = a.parameters.empty() ? temple::shippedProportions(building_name, diagnostics)
+                                                         : temple::readProportions(a.parameters, diagnostics);
+  if (a.tenon && !diagnostics.hasErrors())
+    temple::addTenons(proportions, a.parameters.empty() ? building_name : a.parameters, diagnostics);
+  AssemblyWords words = temple::shippedWords(a.language, diagnostics);
+  if (a.tenon) temple::tellOfTenons(words, a.language);
   checkOutputs(a, diagnostics);
   std::optional<temple::Building> building;
   std::optional<temple::SceneSpec> spec;
@@ -338,7 +341,8 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
   if (diagnostics.hasErrors() || !useModels(*building, a)) return kExitBadInput;
 
   if (!spec)
-    spec = a.assembled ? temple::assembled(*building) : ruinsOf(*building, a.seed, a.parameters.empty() ? a.size : "");
+    spec = a.assembled ? temple::assembled(*building)
+                       : ruinsOf(*building, a.seed, a.parameters.empty() && !a.tenon ? a.size : "");
   if (!spec) return kExitInterrupted;
   if (!a.assembled || a.visit()) {
     spec->to_be_built = true;
@@ -353,7 +357,7 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
   }
   if (a.visit()) {
     if (!kept) {
-      kept = temple::KeptSession{building_name, a.parameters, a.seed, 0, 0, {}};
+      kept = temple::KeptSession{building_name, a.parameters, a.seed, 0, 0, {}, a.tenon};
       for (const temple::SceneSpec::Stone& stone : spec->stones) kept->X_WB.push_back(stone.X_WB);
     }
     const temple::VisitEnd end = runVisit(*building, std::move(*spec), a, proportions, std::move(*kept));
@@ -437,6 +441,8 @@ void addTemple(Command app, int& status) {
           "(the first task has its own)")
       .oneOf(temple::shippedPlans())
       .showDefault();
+  command.flag("--tenon", a->tenon,
+               "each capital has a tenon of wood, which must be felt into the mortise of the drum below it");
   command.flag("--no-help", a->no_help,
                "do not help a visitor with a mouse to grasp (the help fades with every block placed; a device that is "
                "felt never gets any)");

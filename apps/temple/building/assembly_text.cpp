@@ -108,6 +108,8 @@ std::string assemblyText(const Building& building, const Vec3& workspace, const 
     text += "    <goal name=\"" + block.name + "\" bodies=\"" + namesOf(building, fitting(building, i)) + "\" pos=\"" +
             numbers({X.p.x(), X.p.y(), X.p.z()}) + "\" quat=\"" + numbers({X.q.w(), X.q.x(), X.q.y(), X.q.z()}) + "\"";
     if (!words.elements.empty()) text += std::string(" element=\"") + elementName(block.kind) + "\"";
+    // the stone below guides a tenon; only once half of it is in, the goal holds it
+    if (block.tenon > 0) text += " reach=\"" + numbers({block.tenon / 2}) + "\"";
     if (block.fold != 1) text += " fold=\"" + std::to_string(block.fold) + "\"";
     if (const auto below = supporting(building, i); !below.empty())
       text += " after=\"" + namesOf(building, below) + "\"";

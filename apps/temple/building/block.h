@@ -38,6 +38,14 @@ struct Block {
   TriMesh haptic;        ///< flutes, dowel holes and chips, with fewer facets
   Shape physics;         ///< encloses both and shares their bearing faces; a MeshRef stands for `physics_mesh`
   TriMesh physics_mesh;  ///< convex; empty when `physics` is a primitive
+  /// A convex part of the physics geometry.
+  struct Part {
+    Shape shape;     ///< Box, Cylinder, or a MeshRef that stands for `mesh`
+    Vec3 p_BG;       ///< its place [m]
+    TriMesh mesh{};  ///< convex; empty for a primitive
+  };
+  std::vector<Part> parts;  ///< of a block with a tenon or a mortise, in place of `physics`, out of which a tenon juts
+  double tenon = 0;         ///< how far the tenon juts out below [m]; 0: none
   std::optional<BlockModel> model;
 };
 

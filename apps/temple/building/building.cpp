@@ -47,7 +47,7 @@ class Builder {
   void place(Block block, const std::string& name, const Vec3& p_WB, const Quat& q_WB = Quat::Identity()) {
     block.name = name;
     block.X_WB = {p_WB + Vec3(0, behind_, 0), q_WB};
-    if (block.kind == BlockKind::kDrum) block.fold = p_.column.flutes;
+    if (block.kind == BlockKind::kDrum) block.fold = block.parts.empty() ? p_.column.flutes : 4;  // of its mortise
     if (block.kind == BlockKind::kCapital) block.fold = 4;
     if (block.kind == BlockKind::kArchitrave) block.fold = 2;
     const double volume = massProperties(block.haptic).volume;

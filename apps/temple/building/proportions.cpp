@@ -68,7 +68,8 @@ Proportions::Column readColumn(const Part& part, Diagnostics& diagnostics) {
   const Proportions::Column column{
       part.number("height"),       part.number("upper_diameter"), part.number("entasis"),
       part.count("drums"),         part.count("flutes"),          part.number("capital_height"),
-      part.number("abacus_width"), part.number("dowel_width"),    part.number("dowel_depth")};
+      part.number("abacus_width"), part.number("dowel_width"),    part.number("dowel_depth"),
+      part.number("tenon_height"), part.number("tenon_play"),     part.number("tenon_chamfer")};
   const auto refuse = [&](const char* name, const std::string& message, const std::string& help) {
     diagnostics.error(971, part.where(name), message, help);
   };
@@ -89,6 +90,14 @@ Proportions::Column readColumn(const Part& part, Diagnostics& diagnostics) {
   if (column.dowel_depth > 0.4 * std::min(column.capital_height, shaft / std::max(1, column.drums)))
     refuse("dowel_depth", "dowel holes of " + numberText(column.dowel_depth) + " modules meet inside a piece",
            "at most 0.4 of the lowest piece's height");
+  if (column.tenon_height > column.dowel_depth)
+    refuse("tenon_height", "a tenon of " + numberText(column.tenon_height) + " modules stands on the floor of its hole",
+           "at most the hole's depth, " + numberText(column.dowel_depth));
+  if (column.tenon_height > 0 && !(column.tenon_play > 0 && column.tenon_chamfer > 0 &&
+                                   column.tenon_play + 2 * column.tenon_chamfer < column.dowel_width &&
+                                   1.5 * column.tenon_chamfer < column.tenon_height))
+    refuse("tenon_height", "a tenon needs play in its hole and a chamfer that leaves some of it",
+           "tenon_play, and tenon_chamfer below two thirds of tenon_height");
   if (column.entasis > 0.2)
     refuse("entasis", "an entasis of " + numberText(column.entasis) + " modules is no swelling but a barrel",
            "at most 0.2");
@@ -168,6 +177,13 @@ Proportions read(xml::Document& document, Diagnostics& diagnostics) {
 
 std::vector<std::string> shippedNames() { return {"first", "column", "facade"}; }
 std::vector<std::string> shippedPlans() { return {"vitruvius", "parthenon"}; }
+
+void addTenons(Proportions& proportions, const std::string& name, Diagnostics& diagnostics) {
+  proportions.column.tenon = proportions.column.tenon_height > 0;
+  if (!proportions.column.tenon)
+    diagnostics.error(188, {name, 0, 0}, "the columns of this building have no measures of a tenon",
+                      "give its <column> tenon_height, tenon_play and tenon_chamfer, or leave out --tenon");
+}
 
 std::string buildingName(const std::string& size, const std::string& plan) {
   return plan == "vitruvius" || size == "first" ? size : plan + "_" + size;

@@ -36,6 +36,8 @@ struct Proportions {
     int drums = 0, flutes = 0;
     double capital_height = 0, abacus_width = 0;
     double dowel_width = 0, dowel_depth = 0;
+    double tenon_height = 0, tenon_play = 0, tenon_chamfer = 0;  ///< 0: the file gives none
+    bool tenon = false;  ///< the capital has one, and the drum below it a mortise
   } column;
   struct Entablature {
     std::vector<double> intervals;  ///< distances between the columns' axes
@@ -69,6 +71,8 @@ Proportions shippedProportions(const std::string& name, Diagnostics& diagnostics
 std::vector<std::string> shippedNames();
 /// Plans whose measures a size can have: "vitruvius", "parthenon". The first task has its own for either.
 std::vector<std::string> shippedPlans();
+/// Gives the capitals their tenons. E188: the file, `name`, has no measures of them.
+void addTenons(Proportions& proportions, const std::string& name, Diagnostics& diagnostics);
 /// Name of the shipped building of this size after this plan, and back.
 std::string buildingName(const std::string& size, const std::string& plan);
 std::pair<std::string, std::string> sizeAndPlan(const std::string& building);

@@ -29,21 +29,34 @@ std::string meshName(const Block& block, const char* role) { return "meshes/" + 
 
 constexpr const char* kFigureMesh = "meshes/person.obj";
 
+std::string partRole(std::size_t part) { return "physics" + std::to_string(part); }
+
 std::string physicsText(const Block& block) {
   struct Text {
     const Block& block;
+    Vec3 p_BG;
+    std::string role;  // of a mesh
+    std::string place() const {
+      return p_BG.isZero() ? "" : format(" pos=\"%.9g %.9g %.9g\"", p_BG.x(), p_BG.y(), p_BG.z());
+    }
     std::string operator()(const Box& box) const {
-      return format("<box size=\"%.9g %.9g %.9g\"/>", box.size.x(), box.size.y(), box.size.z());
+      return format("<box size=\"%.9g %.9g %.9g\"", box.size.x(), box.size.y(), box.size.z()) + place() + "/>";
     }
     std::string operator()(const Cylinder& rod) const {
-      return format("<cylinder radius=\"%.9g\" length=\"%.9g\"/>", rod.radius, rod.length);
+      return format("<cylinder radius=\"%.9g\" length=\"%.9g\"", rod.radius, rod.length) + place() + "/>";
     }
-    std::string operator()(const MeshRef&) const { return "<mesh file=\"" + meshName(block, "physics") + "\"/>"; }
+    std::string operator()(const MeshRef&) const { return "<mesh file=\"" + meshName(block, role.c_str()) + "\"/>"; }
     std::string operator()(const Sphere&) const { return {}; }
     std::string operator()(const Capsule&) const { return {}; }
     std::string operator()(const Compound&) const { return {}; }
   };
-  return std::visit(Text{block}, block.physics);
+  if (block.parts.empty()) return std::visit(Text{block, Vec3::Zero(), "physics"}, block.physics);
+  std::string text;
+  for (std::size_t i = 0; i < block.parts.size(); ++i) {
+    const Block::Part& part = block.parts[i];
+    text += std::visit(Text{block, part.p_BG, partRole(i)}, part.shape);
+  }
+  return text;
 }
 
 /// Paint changes nothing but the colour.
@@ -139,6 +152,10 @@ std::vector<SceneFile> meshFiles(const Building& building, bool physics_only) {
     }
     if (!block.physics_mesh.triangles.empty())
       files.push_back({meshName(block, "physics"), objText(block.physics_mesh)});
+    for (std::size_t i = 0; i < block.parts.size(); ++i) {
+      if (block.parts[i].mesh.triangles.empty()) continue;
+      files.push_back({meshName(block, partRole(i).c_str()), objText(block.parts[i].mesh)});
+    }
   }
   if (building.figure && !physics_only) files.push_back({kFigureMesh, objText(building.figure->mesh)});
   return files;

@@ -92,6 +92,18 @@ TaskWords taskWords(const std::string& language, const std::string& task) {
   return {};
 }
 
+void tellOfTenons(AssemblyWords& words, const std::string& language) {
+  Diagnostics diagnostics;
+  const auto document = xml::Document::parse(shippedText(language), "words", diagnostics);
+  if (!document) return;
+  for (const xml::Element& tenon : document->root().children("tenon")) {
+    const auto element = std::ranges::find(words.elements, tenon.attribute("of"), &AssemblyWords::Element::name);
+    if (element == words.elements.end()) continue;
+    element->says = tenon.attribute("says");
+    element->stories.insert(element->stories.begin(), {tenon.attribute("story"), tenon.attribute("source")});
+  }
+}
+
 AssemblyWords shippedWords(const std::string& language, Diagnostics& diagnostics) {
   const char* text = shippedText(language);
   if (*text == '\0') {

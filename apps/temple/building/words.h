@@ -29,6 +29,9 @@ struct TaskWords {
 /// one.
 TaskWords taskWords(const std::string& language, const std::string& task);
 
+/// Lets the words tell of tenons, as the shipped ones of `language` do.
+void tellOfTenons(AssemblyWords& words, const std::string& language);
+
 /// The <words> element of a scene.
 std::string wordsText(const AssemblyWords& words);
 

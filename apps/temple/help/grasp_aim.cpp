@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/scene/physics_shapes.h"
+
 namespace presa::temple {
 namespace {
 
@@ -24,6 +26,14 @@ BlockShape shapeOf(const World& world, std::size_t i) {
   const Shape& shape = body.physics->shape;
   if (const Box* box = std::get_if<Box>(&shape)) return {box->size / 2, false};
   if (const Cylinder* rod = std::get_if<Cylinder>(&shape)) return {{rod->radius, rod->radius, rod->length / 2}, true};
+  if (const Compound* compound = std::get_if<Compound>(&shape)) {
+    BlockShape block{Vec3::Zero(), std::holds_alternative<Cylinder>(compound->parts.front().shape)};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {-1.0, 1.0})
+        block.half[axis] = std::max(block.half[axis], supportOf(body, world.meshes[i], side * Vec3::Unit(axis)));
+    }
+    return block;
+  }
   if (!world.meshes[i].physics) return {};
   Vec3 half = Vec3::Zero();
   for (const Vec3& vertex : world.meshes[i].physics->vertices) half = half.cwiseMax(vertex.cwiseAbs());

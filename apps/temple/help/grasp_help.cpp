@@ -210,9 +210,13 @@ void GraspHelp::takeGoal(const PointerState& wanted) noexcept {
   way_ = level(world_->scene.assembly->goals[static_cast<std::size_t>(place_)].X_WB.p - own);
 }
 
-void GraspHelp::notePlace() noexcept {
-  place_need_.store(std::max(0.0, way_.norm() - world_->scene.assembly->snap_distance / 2));
+double GraspHelp::snapDistance() const noexcept {
+  const Assembly& assembly = *world_->scene.assembly;
+  return place_ == kNoGoal ? assembly.snap_distance
+                           : assembly.snapDistanceOf(assembly.goals[static_cast<std::size_t>(place_)]);
 }
+
+void GraspHelp::notePlace() noexcept { place_need_.store(std::max(0.0, way_.norm() - snapDistance() / 2)); }
 
 void GraspHelp::carry(const PointerState& wanted) noexcept {
   const bool opens = wantsOpen();
@@ -250,7 +254,7 @@ void GraspHelp::place(const PointerState& wanted) noexcept {
   if (place_ == kNoGoal || way_.norm() > kLeaves * help_ * kReach) return go(Stage::kHeld);
   overPlace(opens);
   const Vec3& goal = world_->scene.assembly->goals[static_cast<std::size_t>(place_)].X_WB.p;
-  if (!opens || (poseOf(body_).p - goal).norm() > world_->scene.assembly->snap_distance / 2) return;
+  if (!opens || (poseOf(body_).p - goal).norm() > snapDistance() / 2) return;
   notePlace();
   release(wanted);
 }

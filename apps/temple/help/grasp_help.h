@@ -71,6 +71,7 @@ class GraspHelp {
   void open(const PointerState& wanted) noexcept;
   void release(const PointerState& wanted) noexcept;
   void notePlace() noexcept;
+  double snapDistance() const noexcept;  ///< of the place [m]
   void aim(const PointerState& wanted) noexcept;
   void takeGoal(const PointerState& wanted) noexcept;
   void hold() noexcept;
