@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -108,7 +109,11 @@ double Solid::lowerBound(const Vec3& p_B) const noexcept {
 }
 
 double Solid::distance(const Vec3& p_B) const noexcept {
-  return field ? field->at(X_BG.inverseTimes(p_B)) : nearest(primitive, p_B).distance;
+  if (!field) return nearest(primitive, p_B).distance;
+  const Vec3 p_G = X_BG.inverseTimes(p_B);
+  const AxisBox box = field->box();
+  const bool inside = (p_G.array() >= box.low.array()).all() && (p_G.array() <= box.high.array()).all();
+  return inside ? field->at(p_G) : std::numeric_limits<double>::infinity();
 }
 
 SeenSolid::SeenSolid(const Solid& solid, const Pose& X_BT) noexcept

@@ -17,13 +17,13 @@
 namespace presa::view {
 namespace {
 
-constexpr float kSheetOpacity = 0.86F, kOutlineWidth = 3;
+constexpr float kSheetOpacity = 0.86F, kOutlineWidth = 5;
 constexpr double kRangeShare = 0.35, kLines = 5;  // of the tool's radius; lines on one side of zero
 constexpr int kPalette = 256;
 constexpr float kFieldLeft = 20, kFieldBottom = 92, kFieldWidth = 186, kFieldHeight = 70, kColors = 12;
 // display colours, told apart by the colour-blind, too
 const Vec3 kSurface(0.97, 0.97, 0.95), kInside(0.80, 0.33, 0.0), kOutside(0.05, 0.27, 0.58);
-const osg::Vec4 kOutlineColor(0.0F, 0.30F, 0.16F, 1);
+const osg::Vec4 kOutlineColor(0.0F, 0.62F, 0.30F, 1);
 
 /// At `share` of the scale, -1 to 1.
 Vec3 colorAt(double share) {

@@ -467,8 +467,10 @@ void main() { gl_FragColor = color; }
 // Distances on a plane: a colour, a fine line each `step`, a strong one at the surface.
 constexpr const char* kSliceVertex = R"(#version 130
 out vec2 at;
+out vec2 place;  // [m]
 void main() {
   at = gl_MultiTexCoord0.xy;
+  place = gl_Vertex.xy;
   gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
 )";
@@ -479,16 +481,20 @@ uniform float range;
 uniform float step;
 uniform float opacity;
 in vec2 at;
+in vec2 place;
 float lineAt(float away, float pixel, float width) { return 1.0 - smoothstep(width - 0.5, width + 0.5, away / pixel); }
 void main() {
   float d = texture(distances, at).r;
   float pixel = max(fwidth(d), 1e-9);
   vec3 color = texture(palette, vec2(0.5 + 0.5 * clamp(d / range, -1.0, 1.0), 0.5)).rgb;
+  // no line where the field ends: there it jumps, which no distance does
+  float steepest = 2.0 * (length(dFdx(place)) + length(dFdy(place)));
+  float sound = pixel < steepest ? 1.0 : 0.0;
   float away = step * abs(fract(d / step + 0.5) - 0.5);
   float dense = abs(d) < range - 0.25 * step ? 1.0 - smoothstep(0.1, 0.35, pixel / step) : 0.0;
-  color = mix(color, vec3(0.04, 0.06, 0.10), 0.42 * dense * lineAt(away, pixel, 0.9));
-  color = mix(color, vec3(0.0), lineAt(abs(d), pixel, 2.2));
-  gl_FragColor = vec4(color, opacity);
+  color = mix(color, vec3(0.04, 0.06, 0.10), 0.42 * sound * dense * lineAt(away, pixel, 0.9));
+  color = mix(color, vec3(0.0), sound * lineAt(abs(d), pixel, 2.2));
+  gl_FragColor = vec4(color, opacity * (1.0 - smoothstep(0.5 * range, range, d)));
 }
 )";
 constexpr const char* kLine = R"(#version 130

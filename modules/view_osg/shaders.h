@@ -33,7 +33,7 @@ osg::ref_ptr<osg::Program> cone();
 /// Land beyond the floor, out of doors: rock where it is steep, paler with distance.
 osg::ref_ptr<osg::Program> land();
 /// Signed distances on a plane (texture `distances` [m], texture coordinate 0): colour of `palette` from -range to range,
-/// a line each `step` [m], a strong one at zero; uniforms `range`, `step`, `opacity`.
+/// a line each `step` [m], a strong one at zero; clear beyond the range outside; uniforms `range`, `step`, `opacity`.
 osg::ref_ptr<osg::Program> slice();
 /// Lines of one display colour, uniform `line_color`.
 osg::ref_ptr<osg::Program> line();

@@ -102,6 +102,10 @@ draw() {  # PROGRAMS OUT NAME
       "$presa" run "$config/scenes/percro_2006.xml" --lockstep --quiet --hud minimal --picture-size 1280x560 \
         --camera "-0.5,-2.2,0.75:0,0,0.04" --screenshot "$2/$3.png"
       ;;
+    field)
+      "$presa" run "$config/scenes/peg_in_hole.xml" --lockstep --quiet --hud minimal --for 9.4 --screenshot-at 9.3 \
+        --camera "0.07,-0.2,0.09:0,0,0.025" --show field,points --screenshot "$2/$3.png"
+      ;;
     cave) cave "$1" "$2" ;;
     temple_column)
       # status 1: the capital is not in its place yet

@@ -54,6 +54,7 @@ void expectAsDrawnByThePrograms(const std::string& name) {
 // README shows what the programs draw today.
 TEST(Pictures, TheAmphoraIsAsItIsDrawnToday) { expectAsDrawnByThePrograms("pinch_and_lift"); }
 TEST(Pictures, TheArmsAreAsTheyAreDrawnToday) { expectAsDrawnByThePrograms("percro_arms"); }
+TEST(Pictures, TheFieldOfAPegsHoleIsAsItIsDrawnToday) { expectAsDrawnByThePrograms("field"); }
 TEST(Pictures, TheColumnIsAsItIsDrawnToday) { expectAsDrawnByThePrograms("temple_column"); }
 TEST(Pictures, TheReportOfTheCubeIsAsItIsToday) {
   if (browserMissing()) GTEST_SKIP() << "no chromium here";
