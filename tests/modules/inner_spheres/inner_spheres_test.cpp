@@ -103,8 +103,8 @@ TEST(InnerSpheres, ABlockRestsOnASlabAndIsNotMoved) {
 TEST(InnerSpheres, ACogOnACogIsHeldWithinItsLimits) {
   const std::string cog =
       R"(<body name="cog" fixed="true" material="smooth"><haptic><mesh file="config/meshes/cog.obj"/></haptic></body>)";
-  OneTool tool(
-      spheresWorld(R"(<tool><mesh file="config/meshes/cog.obj"/></tool>)", cog, R"(<inner_spheres count="300"/>)"));
+  OneTool tool(spheresWorld(R"(<tool><mesh file="config/meshes/cog.obj"/></tool>)", cog,
+                            R"(<inner_spheres count="600" stiffness="1e9"/>)"));
   double largest = 0, energy = 0;
   Vec3 last = Vec3(0.09, 0, 0);
   for (int i = 0; i < 2000; ++i) {
@@ -145,8 +145,12 @@ TEST(InnerSpheres, APlateFillsEvenly) {
   EXPECT_NEAR(left / (left + right), 0.5, 0.1);
 }
 
+// A sheet of a micrometre across the cells of the grid.
 TEST(InnerSpheres, AToolTooThinForAnySphereIsRefused) {
-  EXPECT_THROW(OneTool(spheresWorld(R"(<tool><box size="0.00001 0.00001 0.1"/></tool>)", test::slab())), InputError);
+  TriMesh sheet = makeBox({0.1, 0.1, 0.000001});
+  for (Vec3& v : sheet.vertices) v = turned({1, 2, 0}, 40) * v;
+  const test::MeshFile file(sheet, "sheet");
+  EXPECT_THROW(OneTool(spheresWorld("<tool><mesh file=\"" + file.path() + "\"/></tool>", test::slab())), InputError);
 }
 
 TEST(InnerSpheres, AMeshWithoutAnInsideIsRefused) {
