@@ -44,6 +44,17 @@ TEST(PointerStylus, LeansWhereThePointerSays) {
   EXPECT_GT(bench.fastest, 1);
 }
 
+// Key p of the window is one of its buttons, which a tool may be put down by.
+TEST(PointerStylus, HasTheButtonsThatAreHeld) {
+  StylusBench bench;
+  PointerState pointer{.sequence = 1, .p_WT = Vec3(0, 0, 0.1), .buttons = 1U << kPickUpButton};
+  bench.stylus.point(pointer);
+  EXPECT_EQ(bench.stylus.sample().buttons, 2U);
+  pointer.buttons = 0;
+  bench.stylus.point(pointer);
+  EXPECT_EQ(bench.stylus.sample().buttons, 0U);
+}
+
 // The reported angular velocity is the rate of the reported orientation, also about two axes at once.
 TEST(PointerStylus, ReportsTheRateOfItsOrientation) {
   StylusBench bench;

@@ -85,8 +85,10 @@ TEST(Outline, IsWhereThePlaneCutsTheTool) {
 // Nothing is there before it is shown, and no field is looked for.
 TEST(FieldSlice, IsThereOnlyOnceItIsShown) {
   Diagnostics diagnostics;
-  const World world = buildWorld(
-      loadScene(std::string(PRESA_SOURCE_DIR) + "/config/scenes/peg_in_hole.xml", {}, diagnostics), {}, diagnostics);
+  Scene scene = loadScene(std::string(PRESA_SOURCE_DIR) + "/config/scenes/peg_in_hole.xml", {}, diagnostics);
+  ASSERT_EQ(scene.bodies.back().name, "socket");
+  scene.bodies.pop_back();  // the table is exact: nothing takes time to build
+  const World world = buildWorld(std::move(scene), {}, diagnostics);
   ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
   osg::ref_ptr<osg::Group> space = new osg::Group, left = new osg::Group;
   FieldSlice slice(world, *space, *left, inkOn(PictureOptions::Background::kScene));
