@@ -30,14 +30,14 @@ struct Simplex {
 };
 
 /// A candidate for the nearest point: members of the simplex with their weights.
-struct Part {
+struct SimplexPart {
   std::array<std::size_t, 3> of{};
   std::array<double, 3> weights{};
   std::size_t count = 0;
   Vec3 v = Vec3::Zero();
 };
 
-Part ofSegment(const Simplex& s, std::size_t i, std::size_t j) noexcept {
+SimplexPart ofSegment(const Simplex& s, std::size_t i, std::size_t j) noexcept {
   const Vec3 &a = s.vertices[i].w, &b = s.vertices[j].w;
   const Vec3 ab = b - a;
   const double along = -a.dot(ab), length = ab.squaredNorm();
@@ -49,22 +49,22 @@ Part ofSegment(const Simplex& s, std::size_t i, std::size_t j) noexcept {
 
 // Regions of a triangle [Ericson2005, 5.1.5]; within it, v is taken along the normal, where it keeps its digits however
 // near the origin is.
-Part ofTriangle(const Simplex& s, std::size_t i, std::size_t j, std::size_t k) noexcept {
+SimplexPart ofTriangle(const Simplex& s, std::size_t i, std::size_t j, std::size_t k) noexcept {
   const Vec3 &a = s.vertices[i].w, &b = s.vertices[j].w, &c = s.vertices[k].w;
   const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac);
   const double area = normal.squaredNorm();
   const double u = (b.cross(c)).dot(normal), v = (c.cross(a)).dot(normal), w = (a.cross(b)).dot(normal);
   if (u > 0 && v > 0 && w > 0 && area > 0)
     return {{i, j, k}, {u / area, v / area, w / area}, 3, a.dot(normal) / area * normal};
-  Part best = ofSegment(s, i, j);
-  for (const Part& edge : {ofSegment(s, j, k), ofSegment(s, k, i)}) {
+  SimplexPart best = ofSegment(s, i, j);
+  for (const SimplexPart& edge : {ofSegment(s, j, k), ofSegment(s, k, i)}) {
     if (edge.v.squaredNorm() < best.v.squaredNorm()) best = edge;
   }
   return best;
 }
 
 /// Whether the origin lies within the tetrahedron. If not, `best` is its nearest part.
-bool insideTetrahedron(const Simplex& s, Part& best) noexcept {
+bool insideTetrahedron(const Simplex& s, SimplexPart& best) noexcept {
   constexpr std::array<std::array<std::size_t, 4>, 4> kFaces{{{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
   bool inside = true;
   double nearest = 1e300;
@@ -75,7 +75,7 @@ bool insideTetrahedron(const Simplex& s, Part& best) noexcept {
     const bool is_flat = std::abs(volume) <= kNoInside * normal.norm() * (d - a).norm();
     if (!is_flat && of_origin * volume >= 0) continue;  // the origin is on the inner side
     inside = false;
-    const Part face = ofTriangle(s, i, j, k);
+    const SimplexPart face = ofTriangle(s, i, j, k);
     if (face.v.squaredNorm() >= nearest) continue;
     nearest = face.v.squaredNorm();
     best = face;
@@ -85,7 +85,7 @@ bool insideTetrahedron(const Simplex& s, Part& best) noexcept {
 
 /// Reduces the simplex to the part nearest to the origin, which becomes v. False: the origin lies within.
 bool reduce(Simplex& s, Vec3& v) noexcept {
-  Part best{{0}, {1}, 1, s.vertices[0].w};
+  SimplexPart best{{0}, {1}, 1, s.vertices[0].w};
   if (s.count == 2) best = ofSegment(s, 0, 1);
   if (s.count == 3) best = ofTriangle(s, 0, 1, 2);
   if (s.count == 4 && insideTetrahedron(s, best)) return false;
