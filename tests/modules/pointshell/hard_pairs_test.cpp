@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "framework/haptics/virtual_coupling.h"
+#include "tests/modules/haptics_proxy/surface/support/mesh_files.h"
+#include "tests/support/alloc_lock_guard.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/one_tool.h"
-#include "tests/support/alloc_lock_guard.h"
 
 namespace presa::hard_pairs_test {
 namespace {
@@ -111,6 +112,27 @@ TEST(HardPairs, TwoRabbitsPressedTogetherAndTurned) {
     EXPECT_LT(course.energy, 0);
     EXPECT_LT(course.depth, 0.102 / 200) << "a voxel";
   }
+}
+
+// The bunny that everybody knows, from Debian's libcgal-demo, scaled to 150 mm.
+TEST(HardPairs, TwoBunniesPressedTogetherAndTurned) {
+  const test::MeshFile bunny(test::realMesh("bunny00"), "bunny");
+  OneTool tool(toolWorld(R"(<tool stiffness="2000" turn_stiffness="20" max_force="24" max_torque="3"><mesh file=")" +
+                             bunny.path() + "\"/></tool>",
+                         bunny.body("bunny", "rough")));
+  const Quat facing = turned({0, 1, 0}, 180);
+  const double apart = 0.1;
+  for (int i = 0; i <= 1000; ++i) tool.tick({{0.2 - (0.2 - apart) * 1e-3 * i, 0, 0}, facing});
+  const Course course = drive(tool, 10000, [&](int i) {
+    const double t = 1e-3 * i;
+    return Pose{{apart, 0.003, 0.004 * std::sin(t)},
+                turned({std::cos(t), std::sin(t), 0.3}, 10 * std::sin(0.7 * t)) * facing};
+  });
+  EXPECT_GT(course.force, 15);
+  EXPECT_LE(course.force, 24 + 1e-9);
+  EXPECT_LT(course.step, maxStep(2000, 0.15));
+  EXPECT_LT(course.energy, 0);
+  EXPECT_LT(course.depth, 0.15 / 200) << "a voxel";
 }
 
 /// A prism: a closed outline in x and y, counter-clockwise and star-shaped about `middle`, between z = low and high.
