@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/temple/building/shipped.h"
+#include "apps/temple/building/words.h"
 #include "apps/temple/drop.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/visit.h"
@@ -84,6 +86,47 @@ TEST_F(Tenon, FitsItsMortise) {
     }
   }
   EXPECT_TRUE(building.blocks.front().parts.empty()) << "only the drum under the capital";
+}
+
+TEST(TenonWords, FitOneLineOfThePanelInEachLanguage) {
+  for (const std::string& language : shippedLanguages()) {
+    Diagnostics diagnostics;
+    AssemblyWords words = shippedWords(language, diagnostics);
+    const AssemblyWords before = words;
+    tellOfTenons(words, language);
+    ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+    for (std::size_t e = 0; e < words.elements.size(); ++e) {
+      const AssemblyWords::Element &now = words.elements[e], &was = before.elements[e];
+      if (now.name != "capital") {
+        EXPECT_EQ(now.says, was.says);
+        continue;
+      }
+      EXPECT_NE(now.says, was.says);
+      EXPECT_LT(now.says.size(), 108U);
+      ASSERT_EQ(now.stories.size(), was.stories.size() + 1);
+      EXPECT_LT(now.stories.front().says.size(), 108U);
+      EXPECT_FALSE(now.stories.front().source.empty());
+    }
+  }
+}
+
+// E188 without measures; E971 where it stands on the floor of its hole, and where it fills it.
+TEST(NoTenon, WhereItsMeasuresDoNotSay) {
+  Diagnostics diagnostics;
+  Proportions proportions = shippedProportions("column", diagnostics);
+  proportions.column.tenon_height = 0;
+  addTenons(proportions, "mine.xml", diagnostics);
+  EXPECT_NE(diagnostics.text().find("mine.xml: error[E188]"), std::string::npos) << diagnostics.text();
+  for (const auto& [from, to] : {std::pair{"<tenon_height value=\"0.18\"", "<tenon_height value=\"0.21\""},
+                                 {"<tenon_chamfer value=\"0.04\"", "<tenon_chamfer value=\"0.28\""}}) {
+    std::string text = shipped::column;
+    text.replace(text.find(from), std::string(from).size(), to);
+    const std::string file = test::scratch("tenon_measures") + "/temple.xml";
+    std::ofstream(file) << text;
+    Diagnostics found;
+    readProportions(file, found);
+    EXPECT_NE(found.text().find("E971"), std::string::npos) << to;
+  }
 }
 
 // Without --tenon nothing is changed.
