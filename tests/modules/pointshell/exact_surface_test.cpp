@@ -60,7 +60,7 @@ TEST(ExactSurface, OfACylinderHasFlatEndsAndARoundEdge) {
     ASSERT_LT((normal.head<2>() / across - p.head<2>() / from_axis).norm(), kNormal);
   });
   EXPECT_GT(on_end, 1000);
-  EXPECT_GE(on_edge, 190) << "96 corners at each end";
+  EXPECT_GT(on_edge, 100) << "of 192 corners of the edges; points of the faces crowd some out";
 }
 
 TEST(ExactSurface, OfABoxIsItsTriangles) { EXPECT_FALSE(exactSurfaceOf(placed(Box{{0.01, 0.02, 0.03}}))); }
