@@ -15,7 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
-    scene_pages) size=1770,2750 ;;      # 66 pages, 6 beside each other
+    scene_pages) size=1770,3000 ;;      # up to 72 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
