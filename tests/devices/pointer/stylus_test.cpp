@@ -47,7 +47,10 @@ TEST(PointerStylus, LeansWhereThePointerSays) {
 // Key p of the window is one of its buttons, which a tool may be put down by.
 TEST(PointerStylus, HasTheButtonsThatAreHeld) {
   StylusBench bench;
-  PointerState pointer{.sequence = 1, .p_WT = Vec3(0, 0, 0.1), .buttons = 1U << kPickUpButton};
+  PointerState pointer;
+  pointer.sequence = 1;
+  pointer.p_WT = {0, 0, 0.1};
+  pointer.buttons = 1U << kPickUpButton;
   bench.stylus.point(pointer);
   EXPECT_EQ(bench.stylus.sample().buttons, 2U);
   pointer.buttons = 0;
