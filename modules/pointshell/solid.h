@@ -21,7 +21,7 @@ struct Solid {
   double voxel() const noexcept { return field ? field->voxel() : 0; }  ///< 0: exact [m]
   /// Never above the distance of the solid itself [m]. Haptic thread; nonblocking.
   double lowerBound(const Vec3& p_B) const noexcept;
-  /// Signed distance of a point in body coordinates, as SeenSolid::distance; infinity outside of the field's grid, where
+  /// Signed distance of a point in body coordinates, as SeenPoints::distance; infinity outside of the field's grid, where
   /// that knows a bound only [m].
   double distance(const Vec3& p_B) const noexcept;
 };

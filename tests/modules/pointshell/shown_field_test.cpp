@@ -37,8 +37,11 @@ TEST(ShownField, IsTheOneThatTheRendererUses) {
     meshes += solids[s].field ? 1 : 0;
     const SeenSolid seen(solids[s], Pose{});
     for (const Eigen::Vector3f& p : {Eigen::Vector3f(0, 0, 0.01F), Eigen::Vector3f(0.011F, 0.002F, 0.02F)}) {
+      SeenPoints points(seen);
+      points.add(p);
+      points.lookUp();
       // the same lookup by another way of rounding, in voxels of 0.2 mm or so
-      EXPECT_NEAR(shown[s].distance(p.cast<double>()), seen.distance(p), 1e-9);
+      EXPECT_NEAR(shown[s].distance(p.cast<double>()), points.distance(0), 1e-9);
     }
   }
   EXPECT_EQ(meshes, 1U);
