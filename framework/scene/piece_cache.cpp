@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKind = 0x3165636569507250;  // "PrPiece1": also the version of decompose()
-constexpr std::chrono::milliseconds kLong{500};  // a cut that takes longer is kept for the next load
+constexpr std::chrono::milliseconds kLong{500};      // a cut that takes longer is kept for the next load
 constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000, kMostBytes = 1U << 28U;
 
 void add(Fnv1a& hash, double value) { hash.addWord(std::bit_cast<std::uint64_t>(value)); }

@@ -5,9 +5,9 @@
 
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/haptics/virtual_coupling.h"
+#include "tests/support/alloc_lock_guard.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/one_tool.h"
-#include "tests/support/alloc_lock_guard.h"
 
 namespace presa::dynamic_tool_test {
 namespace {

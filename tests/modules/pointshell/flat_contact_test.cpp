@@ -7,7 +7,7 @@
 
 #include "framework/core/math/random.h"
 #include "tests/support/mesh_file.h"
-#include "tests/support/one_tool.h"
+#include "tests/support/tool_laws.h"
 
 namespace presa::flat_contact_test {
 namespace {
@@ -105,6 +105,8 @@ TEST(BlockOnPlane, SticksAndSlipsAsCoulombSays) {
   }
   EXPECT_NEAR(largest, 0.5 * pressure, 0.03 * pressure);
 }
+
+TEST(BlockOnPlane, StaysOnASlopeUpToTheAngleOfFriction) { test::expectStickingOnASlope("pointshell", kBlock); }
 
 TEST(BlockOnPlane, HoldsBackTheHandUpToItsLimitAndNoMore) {
   OneTool tool(toolWorld(

@@ -7,7 +7,7 @@
 
 #include "modules/xfca/pair_objects.h"
 #include "tests/support/mesh_file.h"
-#include "tests/support/one_tool.h"
+#include "tests/support/tool_laws.h"
 
 namespace presa::xfca_test {
 namespace {
@@ -255,45 +255,11 @@ TEST(Xfca, ACogIsDraggedOverACog) {
   EXPECT_LT(largest_step, 2.5) << "a tooth snaps past another";
 }
 
-// Oracle: pressed straight down on a slope, a tool stays where the tangent of the slope is below static friction, 0.5.
-TEST(Xfca, StaysOnASlopeUpToTheAngleOfFriction) {
-  for (const double degrees : {24.0, 26.0, 27.2, 29.0}) {
-    const double a = degrees * EIGEN_PI / 180;
-    OneTool tool(xfcaWorld(kBlock, R"(<body name="slope" fixed="true" material="rough" euler_deg="0 )" +
-                                       std::to_string(degrees) +
-                                       R"( 0"><haptic><box size="0.4 0.4 0.1"/></haptic></body>)"));
-    const Quat lie = turned({0, 1, 0}, degrees);
-    const Vec3 up(std::sin(a), 0, std::cos(a));
-    tool.tick({0.07 * up, lie});
-    for (int i = 0; i <= 400; ++i) tool.tick({0.06 * up - Vec3(0, 0, 5e-6 * i), lie});
-    const Vec3 begin = tool.state().X_WT.p;
-    tool.rest({0.06 * up - Vec3(0, 0, 0.002), lie}, 100);
-    const Vec3 slid = tool.state().X_WT.p - 0.06 * up;
-    EXPECT_LT((tool.state().X_WT.p - begin).norm(), 1e-5) << degrees;
-    const double down = slid.dot(Vec3(std::cos(a), 0, -std::sin(a)));
-    if (std::tan(a) < 0.5) {
-      EXPECT_LT(down, 5e-5) << degrees;
-    } else {
-      EXPECT_GT(down, 0.1 * 0.002 * std::sin(a)) << degrees;
-    }
-  }
-}
+TEST(Xfca, StaysOnASlopeUpToTheAngleOfFriction) { test::expectStickingOnASlope("xfca", kBlock); }
 
 TEST(Xfca, GivesTheBodyTheOppositeOfWhatTheHandFeels) {
   OneTool tool(xfcaWorld(kBlock, slab("rough")));
-  tool.tick({{0, 0, 0.02}, Quat::Identity()});
-  for (int i = 0; i < 500; ++i) {
-    const Pose hand{{0.01 * std::sin(0.01 * i), 0.01 * std::cos(0.013 * i), 0.01 + 0.004 * std::sin(0.02 * i)},
-                    turned({std::sin(0.03 * i), 1, 0.2}, 20 * std::sin(0.005 * i))};
-    const FingerContact& contact = tool.tick(hand);
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-    for (const ToolContact& one : tool.all().contactsOf(contact)) {
-      force += one.f_H_W;
-      torque += (one.p_WP - hand.p).cross(one.f_H_W);
-    }
-    EXPECT_LT((force - contact.f_H_W).norm(), 1e-12);
-    EXPECT_LT((torque - contact.t_H_W).norm(), 1e-12);
-  }
+  test::expectThirdLaw(tool, 1000);
 }
 
 }  // namespace
