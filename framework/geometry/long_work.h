@@ -14,7 +14,7 @@ namespace presa {
 class LongWorkListener {
  public:
   using Heard = std::function<bool(const std::string& what, double share)>;  ///< false stops the work
-  explicit LongWorkListener(Heard heard);
+  explicit LongWorkListener(Heard heard);                                    ///< listens from now on
   ~LongWorkListener();
   LongWorkListener(const LongWorkListener&) = delete;
   LongWorkListener& operator=(const LongWorkListener&) = delete;
@@ -22,7 +22,7 @@ class LongWorkListener {
 
 /// Work was told to stop; nothing is wrong with what it worked on.
 struct WorkStopped final : std::exception {
-  const char* what() const noexcept override { return "stopped"; }
+  const char* what() const noexcept override { return "stopped"; }  ///< no reason: somebody wanted it
 };
 
 /// Tells the listener of this thread, if there is one, how far `what` has come ("distance field of body 'bunny'"). It must

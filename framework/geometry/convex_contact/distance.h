@@ -10,7 +10,7 @@ namespace presa {
 /// likely near. Thread: any; nonblocking except for construction.
 class SupportOf {
  public:
-  explicit SupportOf(Hull hull);
+  explicit SupportOf(Hull hull);  ///< keeps the hull, without points that are in none of its faces
 
   /// A farthest point, without the radius, in the direction `d` (any length, not zero), both in the hull's own frame.
   /// `near`: index of a vertex from which the search begins; it becomes that of the point found. A cylinder is round.
@@ -47,7 +47,8 @@ struct ConvexDistance {
 /// What distance() remembers of a pair, so that the next search is short.
 struct DistanceMemory {
   Vec3 nhat_AB = Vec3::Zero();  ///< of the last search; zero: none
-  std::int32_t a = 0, b = 0;    ///< nearest vertices
+  std::int32_t a = 0,           ///< nearest vertex of A
+      b = 0;                    ///< the same of B
 };
 
 /// A plane between two convex solids along a given direction.

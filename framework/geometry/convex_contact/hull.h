@@ -19,9 +19,11 @@ struct Hull {
   };
   /// Where two faces meet, or a segment.
   struct Edge {
-    std::int32_t from = 0, to = 0;       ///< vertices
-    std::int32_t left = -1, right = -1;  ///< faces; -1: none (segment)
-    std::int32_t direction = 0;          ///< index into `directions`, up to sign
+    std::int32_t from = 0,       ///< a vertex
+        to = 0;                  ///< the other one
+    std::int32_t left = -1,      ///< a face; -1: none (segment)
+        right = -1;              ///< the other one; -1: none
+    std::int32_t direction = 0;  ///< index into `directions`, up to sign
   };
   std::vector<Vec3> vertices;    ///< corners; one: a point, two: a segment
   std::vector<Face> faces;       ///< none: a point or a segment
@@ -31,7 +33,8 @@ struct Hull {
   double radius = 0;             ///< of the widening [m]
   /// The cylinder that a prism stands for, along z.
   struct Cylinder {
-    double radius, length;  ///< [m]
+    double radius,  ///< [m]
+        length;     ///< between the flat ends [m]
   };
   std::optional<Cylinder> cylinder;  ///< the polyhedron is a prism in this cylinder (cylinder.h)
 };

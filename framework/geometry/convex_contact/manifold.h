@@ -31,8 +31,9 @@ struct Separation {
 struct ContactAxis {
   /// A face of one of the hulls, or an edge of each.
   enum class Kind : std::uint8_t { kNone, kFaceOfA, kFaceOfB, kEdges };
-  Kind kind = Kind::kNone;    ///< kNone: there was no contact
-  std::int32_t a = 0, b = 0;  ///< indices of faces or edges
+  Kind kind = Kind::kNone;  ///< kNone: there was no contact
+  std::int32_t a = 0,       ///< index of a face or edge of A
+      b = 0;                ///< the same of B
 };
 
 /// Points at which A and B (both in W) overlap or come within `margin` [m] of each other along `nhat_AB_W`, which was

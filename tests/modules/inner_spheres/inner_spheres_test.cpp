@@ -101,9 +101,9 @@ TEST(InnerSpheres, ABlockRestsOnASlabAndIsNotMoved) {
 }
 
 TEST(InnerSpheres, ACogOnACogIsHeldWithinItsLimits) {
-  const std::string cog =
-      R"(<body name="cog" fixed="true" material="smooth"><haptic><mesh file="config/meshes/cog.obj"/></haptic></body>)";
-  OneTool tool(spheresWorld(R"(<tool><mesh file="config/meshes/cog.obj"/></tool>)", cog,
+  const std::string cog = R"(<body name="cog" fixed="true" material="smooth"><haptic><mesh file=")" PRESA_SOURCE_DIR
+                          R"(/config/meshes/cog.obj"/></haptic></body>)";
+  OneTool tool(spheresWorld(R"(<tool><mesh file=")" PRESA_SOURCE_DIR R"(/config/meshes/cog.obj"/></tool>)", cog,
                             R"(<inner_spheres count="600" stiffness="1e9"/>)"));
   double largest = 0, energy = 0;
   Vec3 last = Vec3(0.09, 0, 0);

@@ -164,10 +164,11 @@ TEST(LightCursor, APegWobblesInItsHoleWithoutGivingEnergy) {
 }
 
 TEST(LightCursor, ACogIsDraggedThroughACog) {
-  const std::string cog =
-      R"(<body name="cog" fixed="true" material="rough"><haptic><mesh file="config/meshes/cog.obj"/></haptic></body>)";
-  OneTool tool(
-      cursorWorld(R"(<tool stiffness="1000" turn_stiffness="1"><mesh file="config/meshes/cog.obj"/></tool>)", cog));
+  const std::string cog = R"(<body name="cog" fixed="true" material="rough"><haptic><mesh file=")" PRESA_SOURCE_DIR
+                          R"(/config/meshes/cog.obj"/></haptic></body>)";
+  OneTool tool(cursorWorld(R"(<tool stiffness="1000" turn_stiffness="1"><mesh file=")" PRESA_SOURCE_DIR
+                           R"(/config/meshes/cog.obj"/></tool>)",
+                           cog));
   double largest = 0, deepest = 0;
   for (int i = 0; i < 4000; ++i) {
     const double angle = 1e-3 * i, radius = std::max(0.055, 0.09 - 1e-4 * i);

@@ -236,9 +236,10 @@ TEST(Xfca, AToolThatStartsInsideIsPushedOutWithinItsLimits) {
 
 // A cog is cut into convex pieces; it is dragged around over another one.
 TEST(Xfca, ACogIsDraggedOverACog) {
-  const std::string cog =
-      R"(<body name="cog" fixed="true" material="rough"><haptic><mesh file="config/meshes/cog.obj"/></haptic></body>)";
-  OneTool tool(xfcaWorld(R"(<tool stiffness="1000"><mesh file="config/meshes/cog.obj"/></tool>)", cog));
+  const std::string cog = R"(<body name="cog" fixed="true" material="rough"><haptic><mesh file=")" PRESA_SOURCE_DIR
+                          R"(/config/meshes/cog.obj"/></haptic></body>)";
+  OneTool tool(
+      xfcaWorld(R"(<tool stiffness="1000"><mesh file=")" PRESA_SOURCE_DIR R"(/config/meshes/cog.obj"/></tool>)", cog));
   Vec3 last = Vec3::Zero();
   double largest = 0, largest_step = 0;
   for (int i = 0; i < 4000; ++i) {
