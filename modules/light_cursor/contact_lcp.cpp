@@ -6,13 +6,15 @@
 #include "modules/light_cursor/contact_lcp.h"
 
 #include <algorithm>
+#include <array>
 
 namespace presa {
 namespace {
 
 constexpr int kMaxPivots = 40;
-constexpr int kBisections = 40;  // of a way, when E rises before its end
-constexpr double kFits = 1e-12;  // gap of a contact that counts as none [m]
+constexpr std::size_t kMaxContacts = 256;  // as the manifest has it
+constexpr int kBisections = 30;            // of a way, when E rises before its end
+constexpr double kFits = 1e-12;            // gap of a contact that counts as none [m]
 
 Vec6 rowOf(const CursorContact& contact) noexcept {
   Vec6 row;
@@ -46,13 +48,16 @@ bool sameSet(const BoundedList<CursorContact>& contacts, const Vec6& u, const Ve
 double lowest(const ContactProblem& problem, const BoundedList<CursorContact>& contacts, const Vec6& u,
               const Vec6& way) noexcept {
   const double linear = way.dot(problem.Q * u - problem.r), square = way.dot(problem.Q * way);
+  std::array<double, kMaxContacts> gap, closing;
+  const std::size_t count = std::min(contacts.size(), kMaxContacts);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec6 row = rowOf(contacts[i]);
+    gap[i] = row.dot(u) + contacts[i].gap;
+    closing[i] = row.dot(way);
+  }
   const auto slope = [&](double t) {
     double sum = linear + t * square;
-    for (const CursorContact& one : contacts) {
-      const Vec6 row = rowOf(one);
-      const double closing = row.dot(way);
-      sum += problem.k * std::min(0.0, row.dot(u) + one.gap + t * closing) * closing;
-    }
+    for (std::size_t i = 0; i < count; ++i) sum += problem.k * std::min(0.0, gap[i] + t * closing[i]) * closing[i];
     return sum;
   };
   if (slope(1) <= 0) return 1;
@@ -67,8 +72,7 @@ double lowest(const ContactProblem& problem, const BoundedList<CursorContact>& c
 }  // namespace
 
 Pivots solveContacts(const ContactProblem& problem, BoundedList<CursorContact>& contacts, Vec6& u) noexcept {
-  u = problem.Q.ldlt().solve(problem.r);
-  Pivots pivots{1, contacts.empty()};
+  Pivots pivots{0, false};
   while (!pivots.exact && pivots.count < kMaxPivots) {
     ++pivots.count;
     const Vec6 next = stepOf(problem, contacts, u);

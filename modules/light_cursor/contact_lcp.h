@@ -32,8 +32,8 @@ struct Pivots {
   bool exact = true;  ///< false: none fitted within the bound; the step is the best one found, its forces fit it
 };
 
-/// Writes the forces of the contacts, and returns the step in `u`. Principal pivoting with a line search, a bounded number
-/// of times. Thread: any; nonblocking.
+/// Writes the forces of the contacts, and returns the step in `u`, which holds a first guess: the nearer it is, the fewer
+/// sets are tried. Principal pivoting with a line search, a bounded number of times. Thread: any; nonblocking.
 Pivots solveContacts(const ContactProblem& problem, BoundedList<CursorContact>& contacts, Vec6& u) noexcept;
 
 }  // namespace presa

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxStep = 0.004;  // motion of a point in a tick: 4 m/s [m]
 constexpr double kAhead = 1e-4;     // contacts are found this far beyond the motion that the handle wants [m]
 constexpr int kLooks = 2;           // for contacts in a tick
-constexpr int kRounds = 4;          // in which pairs that hold turn out to slide
+constexpr int kRounds = 8;          // in which pairs that hold turn out to slide
 
 Mat3 crossMatrix(const Vec3& v) noexcept {
   Mat3 m;

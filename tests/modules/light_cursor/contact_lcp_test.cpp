@@ -59,7 +59,7 @@ TEST(ContactLcp, SolvesRandomProblemsExactly) {
     for (int i = 0; i < trial % 41; ++i)
       contacts.add(
           {.p = random.inCube(0.05), .nhat = random.inCube(1).normalized(), .gap = random.between(-0.001, 0.003)});
-    Vec6 u;
+    Vec6 u = Vec6::Zero();
     const Pivots pivots = solveContacts(problem, contacts, u);
     ASSERT_TRUE(pivots.exact) << trial;
     most = std::max(most, pivots.count);
@@ -78,7 +78,7 @@ TEST(ContactLcp, FourCornersOfAFaceBearAlike) {
   problem.Q.diagonal() << 1000, 1000, 1000, 1, 1, 1;
   problem.r << 0, 0, -2, 0, 0, 0;
   problem.k = 200000;
-  Vec6 u;
+  Vec6 u = Vec6::Zero();
   EXPECT_TRUE(solveContacts(problem, contacts, u).exact);
   for (const CursorContact& one : contacts) EXPECT_NEAR(one.force, 0.5 * 800000 / 801000, 1e-9);
 }
