@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kApart = 2e-5;  // gap at which the plane of an overlap is looked for [m]
 
-// Along the plane of the last tick, or that of a face, the tool is taken out of the body, and a little farther; from there the shortest way
-// has a direction, which follows tool and body as they turn.
+// Along the plane of the last tick, or that of a face, the tool is taken out of the body, and a little farther; from
+// there the shortest way has a direction, which follows tool and body as they turn.
 SupportingPlane planeOfOverlap(const PlacedSupport& body, const PlacedSupport& tool, const Vec3& nhat_last,
                                DistanceMemory& memory) noexcept {
   const SupportingPlane last =
@@ -35,7 +35,7 @@ ConvexPairs::ConvexPairs(const ConvexSolid& tool, const std::vector<ConvexSolid>
   centres_W_.resize(bodies_in_W_.size());
   memories_.resize(bodies_in_W_.size() * tool.parts.size());
   // the stand-ins of cylinders take their memory
-  const Hull cylinder = cylinderHull(1, 4), ball = sphereHull(1);
+  const Hull cylinder = cylinderHull(1, 4);
   for (const Vec3& away : {Vec3(3, 0, 0), Vec3(1, 0, 5)}) {
     std::array<CylinderTurn, 2> turns;
     facing_.of({cylinder, {}, nullptr, &turns[0]}, {cylinder, {away, Quat::Identity()}, nullptr, &turns[1]});
@@ -137,14 +137,12 @@ void ConvexPairs::separate(NearParts& pair, const Pose& X_WT, double beyond) noe
   const ConvexDistance found = distance(body, tool, beyond, memory.distance);
   memory.tick = ticks_;
   SupportingPlane plane{found.nhat_AB, found.gap, found.on_a, found.on_b};
-  pair.overlaps = found.kind == ConvexDistance::Kind::kOverlap;
-  if (pair.overlaps) {
+  if (found.kind == ConvexDistance::Kind::kOverlap) {
     plane = planeOfOverlap(body, tool, last, memory.distance);
   } else if (found.nhat_AB.dot(last) < 0) {
     // within a tick it does not get around a part: it was turned, or the part moved, through it
     const SupportingPlane before = planeAlong(body, tool, last, memory.distance);
-    pair.overlaps = before.gap < 0;
-    if (pair.overlaps) plane = before;
+    if (before.gap < 0) plane = before;
   }
   memory.distance.nhat_AB = plane.nhat_AB;
   pair.nhat_W = plane.nhat_AB;

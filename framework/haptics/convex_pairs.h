@@ -11,12 +11,11 @@ namespace presa {
 
 /// A convex part of a tool near one of a body, and a plane between them.
 struct NearParts {
-  std::uint32_t tool_part = 0;    ///< index into the tool's parts
-  std::uint32_t solid = 0;        ///< index into the bodies
-  std::uint32_t part = 0;         ///< index into the body's parts
-  bool overlaps = false;          ///< they overlap; the plane is that of the last tick, turned towards less overlap
-  Vec3 nhat_W = Vec3::UnitZ();    ///< unit, from the body into the tool
-  double gap = 0;                 ///< along nhat_W; negative: overlap [m]
+  std::uint32_t tool_part = 0;  ///< index into the tool's parts
+  std::uint32_t solid = 0;      ///< index into the bodies
+  std::uint32_t part = 0;       ///< index into the body's parts
+  Vec3 nhat_W = Vec3::UnitZ();  ///< unit, from the body into the tool
+  double gap = 0;  ///< along nhat_W; negative: overlap, along the last tick's plane turned towards less [m]
   Vec3 on_body_W = Vec3::Zero(),  ///< nearest points; where they overlap, the farthest along nhat_W [m]
       on_tool_W = Vec3::Zero();   ///< the same of the tool
 };

@@ -17,8 +17,9 @@ class GodObject {
 
   explicit GodObject(ConvexPairs& pairs) : pairs_(pairs) {}
 
-  /// Moves from `x` to the point nearest to `goal` that the bodies let it reach, in a bounded number of passes. The
-  /// pairs listed must be all that come within twice the way, and are apart as at `x` when it ends. False: it is still on its way.
+  /// Moves from `x` to the point nearest to `goal` that the bodies let it reach, in a bounded number of passes. The pairs
+  /// listed must be all that come within twice the way, and are apart as at `x` when it ends. False: it is still on its
+  /// way.
   bool slide(const Quat& q_WT, const Vec3& goal, Vec3& x) noexcept;
 
   /// How the bodies push the tool.
