@@ -5,6 +5,7 @@
 #include <string>
 
 #include "framework/device/frame_tree.h"
+#include "framework/geometry/rotation_between.h"
 
 namespace presa {
 namespace {
@@ -59,7 +60,7 @@ std::optional<GraspTurn> graspTurn(const World& world, std::span<const TraceSamp
     if (!begin) begin = heldIn(sample);
     if (sample.time < hold_begin) continue;
     const Held now = heldIn(sample);
-    const Quat hand = Quat::FromTwoVectors(begin->line, now.line);
+    const Quat hand = rotationBetween(begin->line, now.line);
     turn.hand = std::max(turn.hand, angleOf(hand));
     turn.object = std::max(turn.object, angleOf(hand.conjugate() * now.object * begin->object.conjugate()));
     turn.sideways = std::max(turn.sideways, now.line.cross(begin->line.normalized()).norm() / 2);

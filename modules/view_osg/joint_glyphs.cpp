@@ -6,6 +6,7 @@
 #include <osg/BlendFunc>
 #include <osg/Depth>
 
+#include "framework/geometry/rotation_between.h"
 #include "modules/view_osg/osg_convert.h"
 #include "modules/view_osg/shaders.h"
 
@@ -68,7 +69,7 @@ osg::ref_ptr<osg::Node> translucentWhereHidden(osg::Group* solid) {
 }
 
 /// Turning frame: z along `axis_J`.
-Quat frameOf(const Vec3& axis_J) { return Quat(Quat::FromTwoVectors(Vec3::UnitZ(), axis_J)); }
+Quat frameOf(const Vec3& axis_J) { return rotationBetween(Vec3::UnitZ(), axis_J); }
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "modules/view_osg/osg_convert.h"
 
+#include "framework/geometry/rotation_between.h"
+
 namespace presa::view {
 
 osg::Matrixd toOsg(const Pose& X_AB) {
@@ -9,7 +11,7 @@ osg::Matrixd toOsg(const Pose& X_AB) {
 }
 
 osg::Matrixd alongZ(const Vec3& origin, const Vec3& direction, const Vec3& scale) {
-  const Pose X{origin, Quat(Quat::FromTwoVectors(Vec3::UnitZ(), direction))};
+  const Pose X{origin, rotationBetween(Vec3::UnitZ(), direction)};
   return osg::Matrixd::scale(toOsg(scale)) * toOsg(X);
 }
 

@@ -2,8 +2,9 @@
 """Each installed header compiles when it is the only one included.
 
 usage: headers_alone.py SOURCE BUILD
-The build has shown it for a header that is the first include of the .cpp file beside it; the others are compiled here. Eigen, which
-takes most of the time, is parsed once: a header gets it only if its own includes lead to spatial.h, which includes Eigen.
+The build has shown it for a header that is the first include of the .cpp file beside it; the others are compiled here. What they
+include from elsewhere is parsed once, as that takes most of the time: a header gets it if it uses no names of the standard library but those in
+GIVEN_BY and includes what gives them, and if it does not reach Eigen without spatial.h. Any other header is compiled with nothing before it.
 """
 import functools
 import pathlib
@@ -16,6 +17,30 @@ from concurrent.futures import ThreadPoolExecutor
 INCLUDE = re.compile(r'^#include "(.*)"', re.MULTILINE)
 FIRST = re.compile(r"^#include .*", re.MULTILINE)
 SPATIAL = "framework/core/math/spatial.h"
+SYSTEM = re.compile(r"^#include <(.*)>", re.MULTILINE)
+STANDARD_NAME = re.compile(r"\bstd::(\w+)")
+COMMENT = re.compile(r"//.*")
+
+# the headers of the standard library that are promised to declare a name
+GIVEN_BY = {
+    **{name: {name} for name in ("array", "atomic", "map", "optional", "span", "string", "string_view", "variant", "vector")},
+    **{name: {"algorithm"} for name in ("clamp", "copy_n", "max", "min")},
+    **{name: {"cmath"} for name in ("cos", "exp", "expm1", "hypot", "log", "log10", "pow", "sin", "sqrt")},
+    **{name: {"cstdint"} for name in ("int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t")},
+    **{name: {"memory"} for name in ("make_shared", "make_unique", "shared_ptr", "unique_ptr", "weak_ptr")},
+    **{name: {"stdexcept"} for name in ("invalid_argument", "logic_error", "runtime_error")},
+    **{name: {"utility"} for name in ("exchange", "move", "pair", "swap")},
+    "function": {"functional"},
+    "get_if": {"variant"},
+    "memory_order_acq_rel": {"atomic"},
+    "memory_order_acquire": {"atomic"},
+    "memory_order_relaxed": {"atomic"},
+    "nullopt": {"optional"},
+    "numeric_limits": {"limits"},
+    "pi": {"numbers"},
+    "size_t": {"array", "cstddef", "cstdio", "cstdlib", "cstring", "span", "string", "string_view", "vector"},
+}
+PARSED = sorted({header for headers in GIVEN_BY.values() for header in headers})
 
 
 def main():
@@ -45,12 +70,26 @@ def main():
                     found |= reached(name)
             return frozenset(found)
 
-        parsed = pathlib.Path(folder, "parsed.h")
-        parsed.write_text(f'#include "{SPATIAL}"\n')
-        subprocess.run([*compiler, "c++-header", parsed, "-o", f"{parsed}.gch"], check=True)
+        def includes_its_names(header):
+            text = COMMENT.sub("", (root / header).read_text())
+            names = set(STANDARD_NAME.findall(text))
+            system = {name for of in reached(header) for name in SYSTEM.findall((root / of).read_text())}
+            return all(not system.isdisjoint(GIVEN_BY.get(name, ())) for name in names)
+
+        def parse(name, lines):
+            path = pathlib.Path(folder, name)
+            path.write_text("".join(lines))
+            subprocess.run([*compiler, "c++-header", path, "-o", f"{path}.gch"], check=True)
+            return path
+
+        standard = [f"#include <{name}>\n" for name in PARSED]
+        parsed = parse("parsed.h", standard)
+        parsed_with_eigen = parse("parsed_with_eigen.h", [*standard, f'#include "{SPATIAL}"\n'])
 
         def compiles(header):
-            given = ["-include", parsed] if header != SPATIAL and SPATIAL in reached(header) else []
+            given = []
+            if header != SPATIAL and includes_its_names(header):
+                given = ["-include", parsed_with_eigen if SPATIAL in reached(header) else parsed]
             return subprocess.run([*compiler, "c++", "-fsyntax-only", *given, "-"], check=False, text=True, input=f'#include "{header}"\n').returncode == 0
 
         rest = [header for header in headers if not stands_first(header)]

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "framework/geometry/rotation_between.h"
 #include "tests/modules/dynamics_ode/hull_support.h"
 #include "tests/modules/dynamics_ode/support.h"
 
@@ -43,7 +44,7 @@ TEST(CylinderContact, TouchesAPlaneWithItsTrueRim) {
     const double gap = 1e-3 * random.normal(random.generator) * (n % 2 == 0 ? 0.1 : 1);
     Quat q = random.turn();
     if (n % 5 == 0) q = Quat(Eigen::AngleAxisd(1e-4 * (n % 7), random.direction()));  // nearly upright
-    if (n % 5 == 1) q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(1, 1, 1e-4 * (n % 7)).normalized());
+    if (n % 5 == 1) q = rotationBetween(Vec3::UnitZ(), Vec3(1, 1, 1e-4 * (n % 7)).normalized());
     const double reach = support(kCylinderRadius, length, q.conjugate() * Vec3::UnitZ());
     const Pose X{{0.01, 0.02, reach + gap}, q};
     CylinderTurn turn;
@@ -84,8 +85,8 @@ TEST(CylinderContact, SidesTouchAsFarApartAsTheirAxesLessTheRadii) {
     const double angle = n % 4 == 0 ? 0 : 0.01 + std::abs(random.normal(random.generator));
     const Vec3 b = Eigen::AngleAxisd(angle, across) * a;
     const double gap = 1e-4 * random.normal(random.generator);
-    const Pose X_A{Vec3::Zero(), Quat::FromTwoVectors(Vec3::UnitZ(), a)};
-    const Pose X_B{(2 * kCylinderRadius + gap) * across + 0.01 * a, Quat::FromTwoVectors(Vec3::UnitZ(), b)};
+    const Pose X_A{Vec3::Zero(), rotationBetween(Vec3::UnitZ(), a)};
+    const Pose X_B{(2 * kCylinderRadius + gap) * across + 0.01 * a, rotationBetween(Vec3::UnitZ(), b)};
     std::array<CylinderTurn, 2> turns;
     const Vec3 way = shortestWay(stand_ins[0].core(cylinder, X_A), stand_ins[1].core(cylinder, X_B));
     const Manifold manifold = contactOf(stand_ins[0].facing(cylinder, X_A, way, turns[0]),
