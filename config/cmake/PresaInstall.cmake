@@ -13,7 +13,7 @@ foreach(room IN ITEMS core plugin haptics geometry scene device)
 endforeach()
 foreach(header IN LISTS presa_headers)
   cmake_path(GET header PARENT_PATH folder)
-  install(FILES ${header} DESTINATION include/presa/${folder})
+  install(FILES ${header} DESTINATION include/presa/${folder} COMPONENT headers)
 endforeach()
 
 install(TARGETS ${presa_exported} EXPORT PresaExport
@@ -45,8 +45,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/PresaPackageDepends.cmake)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libjs-three) # beside the libraries: presa replay --page reads it
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, make, g++, libeigen3-dev, libboost-dev, libgtest-dev, libgmock-dev, python3-numpy, python3-h5py") # for authors of plug-ins, and for programs in Python
 set(CPACK_DEBIAN_COMPRESSION_TYPE zstd) # the slowest part of making the package, else
