@@ -8,6 +8,7 @@
 
 #include "framework/core/math/random.h"
 #include "framework/geometry/mesh_distance.h"
+#include "tests/support/effort.h"
 
 namespace presa::distance_field_test {
 namespace {
@@ -187,7 +188,7 @@ TEST(DistanceField, ComesBackFromItsBytesAndSeesDamage) {
   }
   for (const std::size_t length : {std::size_t{0}, std::size_t{7}, std::size_t{60}, bytes.size() - 1})
     EXPECT_FALSE(DistanceField::fromBytes(bytes.substr(0, length))) << length;
-  for (int i = 0; i < 2000; ++i) {  // whatever it says, it stays within its memory
+  for (int i = 0; i < unlessSanitized(2000, 300); ++i) {  // whatever it says, it stays within its memory
     std::string broken = bytes;
     broken[random.below(200)] = static_cast<char>(random.bits());
     if (const auto read = DistanceField::fromBytes(broken)) read->at(somewhere(random, 0.04));
