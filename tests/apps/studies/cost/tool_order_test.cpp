@@ -14,7 +14,7 @@
 namespace presa::cost {
 namespace {
 
-void write(const std::string& name, const std::string& text) { std::ofstream(test::scratch(name)) << text; }
+void writeScratch(const std::string& name, const std::string& text) { std::ofstream(test::scratch(name)) << text; }
 
 /// A ball in the hand is pressed 1 to 3 mm into a body of that shape, 60 mm high, and moves 20 mm along it while it turns
 /// by a right angle.
@@ -25,15 +25,15 @@ std::string rolling(const std::string& settings, const std::string& shape) {
   for (const Vec3& v : mesh.vertices) out << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
   for (const TriMesh::Triangle& t : mesh.triangles)
     out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
-  write("roll.csv", R"(time_s,role,x_m,y_m,z_m,qw,qx,qy,qz,phase
+  writeScratch("roll.csv", R"(time_s,role,x_m,y_m,z_m,qw,qx,qy,qz,phase
 0,ball,-0.01,0.002,0.053,1,0,0,0,reach
 0.1,ball,-0.01,0.002,0.0475,1,0,0,0,reach
 0.3,ball,0,0.003,0.049,0.92388,0,0.38268,0,roll
 0.5,ball,0.01,0.004,0.0474,0.70711,0,0.70711,0,roll
 )");
-  write("roll_rig.xml", R"(<rig version="1.0" name="roll"><device role="ball" driver="scripted">
+  writeScratch("roll_rig.xml", R"(<rig version="1.0" name="roll"><device role="ball" driver="scripted">
     <set key="motion" value="roll.csv"/></device></rig>)");
-  write("roll.xml", R"(<scene version="1.1" name="roll" rig="roll_rig.xml"><world gravity="0 0 0"/>
+  writeScratch("roll.xml", R"(<scene version="1.1" name="roll" rig="roll_rig.xml"><world gravity="0 0 0"/>
     <haptics tools="pointshell"><pointshell )" +
                         settings + R"(/></haptics><materials><material name="smooth" stiffness="1000"/></materials>
     <body name="other" fixed="true" material="smooth"><haptic>)" +
