@@ -57,13 +57,17 @@ class PathWalk {
       fail("a part of the path is empty", "write --set PATH=VALUE, such as --set body/cube/physics/mass=0.5");
       return;
     }
+    walk();
+  }
+
+ private:
+  void walk() {
     while (index_ + 1 < parts_.size()) {
       if (!descend()) return;
     }
     setAttribute();
   }
 
- private:
   bool fail(const std::string& message, const std::string& help) {
     diagnostics_.error(kBadPath, origin_, quote(change_.path) + ": " + message, help);
     return false;
@@ -109,8 +113,56 @@ class PathWalk {
     return is_number && std::stoul(digits) > 0 ? Numbered{part.substr(0, open), std::stoul(digits)} : Numbered{part, 0};
   }
 
+  /// From here the rest of the path is followed in `element`, too. This walk ends.
+  void followIn(const Element& element, const ElementRule& rule) {
+    PathWalk other = *this;
+    other.step(element, rule, 1);
+    other.walk();
+  }
+
+  static bool mayBeAdded(const ElementRule& parent, const ElementRule& child) {
+    const bool needs_children = std::any_of(child.content.begin(), child.content.end(),
+                                            [](const xml::ContentRule& inner) { return inner.min > 0; });
+    return parent.contentOf(child.name)->options.size() == 1 && !needs_children && !listedElement(child);
+  }
+
+  /// Whether a path can go on from an element with this part.
+  static bool leadsOn(const Element& element, const ElementRule& rule, const std::string& part) {
+    const ElementRule* child = rule.child(numbered(part).name);
+    return rule.attribute(part) || (child && (!element.children(child->name).empty() || mayBeAdded(rule, *child)));
+  }
+
+  /// Settings may stand in the file or not: <haptics tools="pointshell"/> has an element <pointshell> all the same.
+  void addNamedElements() {
+    for (const std::string& attribute : rule_->attributeNames()) {
+      const std::string name = element_.attribute(attribute);
+      const ElementRule* child = rule_->child(name);
+      if (child && child->attribute(parts_[index_ + 1]) && element_.children(name).empty() &&
+          mayBeAdded(*rule_, *child))
+        element_.addChild(name, origin_);
+    }
+  }
+
+  /// "*" in the place of an element, or of its name: all of those in which the path can go on.
+  bool followInEach(const std::vector<Element>& candidates, const ElementRule* common_rule = nullptr) {
+    const std::string& next = parts_[index_ + 1];
+    bool any = false;
+    for (const Element& candidate : candidates) {
+      const ElementRule* rule = common_rule ? common_rule : rule_->child(candidate.name());
+      if (!rule || !leadsOn(candidate, *rule, next)) continue;
+      followIn(candidate, *rule);
+      any = true;
+    }
+    return any ? false : fail("nothing at " + here() + "* has " + quote(next), "");
+  }
+
+  /// False: the walk ends here, with a finding or because others follow the rest of the path.
   bool descend() {
     const std::string& part = parts_[index_];
+    if (part == "*") {
+      addNamedElements();
+      return followInEach(element_.children());
+    }
     const Numbered which = numbered(part);
     const ElementRule* next = rule_->child(which.name);
     if (next && (which.number == 0 || identityAttribute(*next).empty())) return enter(*next, which.number);
@@ -150,9 +202,7 @@ class PathWalk {
           element_.label() + " holds no <" + next.name + ">",
           others.empty() ? "" : "it holds <" + others.front().name() + ">; a path cannot change the kind of a shape");
     }
-    const bool needs_children = std::any_of(next.content.begin(), next.content.end(),
-                                            [](const xml::ContentRule& inner) { return inner.min > 0; });
-    if (needs_children || listedElement(next)) {
+    if (!mayBeAdded(*rule_, next)) {
       return fail(element_.label() + " has no <" + next.name + ">", "a path can set values, not add a whole element");
     }
     step(element_.addChild(next.name, origin_), next, 1);
@@ -166,6 +216,7 @@ class PathWalk {
     const std::string kind = next.name;
     ++index_;  // from the element's name to its identity; the path has at least one more part
     const std::string& wanted = parts_[index_];
+    if (wanted == "*" && !names.empty() && index_ + 1 < parts_.size()) return followInEach(candidates, &next);
     const auto found = std::find(names.begin(), names.end(), wanted);
     if (found == names.end()) {
       return fail("there is no " + kind + " " + quote(wanted) + didYouMean(wanted, names),

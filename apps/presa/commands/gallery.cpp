@@ -33,7 +33,7 @@ std::string optionOfARun(const Command& command) {
         "--screenshot", "--screenshot-at", "--video",    "--speed",      "--camera",       "--picture-size",
         "--video-rate", "--hud",           "--legend",   "--background", "--light",        "--sound",
         "--show",       "--bus",           "--bus-keys", "--domain",     "--bus-commands", "--guide",
-        "--summary",    "--report",        "--plug-ins", "--quiet"})
+        "--summary",    "--report",        "--plug-ins", "--quiet",      "--memory"})
     if (command.given(option)) return option;
   return {};
 }

@@ -14,6 +14,7 @@
 #include "apps/common/terminal/waiting.h"
 #include "apps/common/terminal_run.h"
 #include "framework/core/diagnostics/printable.h"
+#include "framework/scene/xml/value_rule.h"
 
 namespace presa {
 namespace {
@@ -133,6 +134,11 @@ void addRunOptions(Command command, RunArguments& arguments) {
               "PATH=VALUE: change any value of the scene, e.g. body/cube/physics/mass=0.1,\n"
               "material/rubber/stiffness=2000, rates/dynamics=400; may be repeated")
       .oneValueEach();
+  command
+      .option("--memory", arguments.memory,
+              "MiB that distance fields of tools may take: larger ones are refused before they are built\n"
+              "(the same as --set 'haptics/*/memory=MIB')")
+      .positive();
   command.option("--record", arguments.options.record, "record the run at haptic rate (HDF5)");
   command.option("--flight", arguments.options.flight,
                  "keep the last two seconds in memory and write them here when a fault occurs\n"
@@ -171,6 +177,7 @@ RunOptions::View viewOf(const RunArguments& arguments) {
 
 RunEnd runScene(RunArguments arguments, SceneOffer offer) {
   arguments.options.realtime = !arguments.lockstep;
+  if (arguments.memory > 0) arguments.inputs.sets.push_back("haptics/*/memory=" + xml::numberText(arguments.memory));
   arguments.options.bound_stiffness = true;
   arguments.options.view = viewOf(arguments);
   std::string now = utcNow();

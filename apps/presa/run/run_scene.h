@@ -18,7 +18,8 @@ struct RunArguments {
   bool traced = true;  ///< samples are kept for a report
   std::string view;    ///< empty: automatic
   PictureArguments picture;
-  double speed = 0;  ///< 0: default
+  double speed = 0;   ///< 0: default
+  double memory = 0;  ///< for distance fields [MiB]; 0: what the scene allows
   std::string summary, report;
 };
 

@@ -52,6 +52,17 @@ TEST(Run, NamesThePlugInsThatItWouldLoad) {
   EXPECT_EQ(presa("run no_such_scene.xml --plug-ins").status, 2);
 }
 
+// The limit is meant for the fields of any renderer of tools: a scene without one has nothing that it limits.
+TEST(Run, RefusesFieldsThatNeedMoreMemory) {
+  const std::string little = " --lockstep --for 0.01 --quiet --memory 4";
+  const auto refused = presa("run " + source("config/scenes/peg_in_hole.xml") + little);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("error[E596]"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("4 MiB are left"), std::string::npos) << refused.err;
+  EXPECT_EQ(presa("run " + source("config/scenes/peg_in_hole.xml") + little + "0").status, 0);
+  EXPECT_NE(presa("run " + kCubeScene + little).err.find("nothing at haptics/* has 'memory'"), std::string::npos);
+}
+
 // Very high rates, used for references, are allowed in virtual time only.
 TEST(Run, RefusesRatesThatNoClockKeeps) {
   const std::string fast = "run " + kCubeScene + " --view none --quiet --for 0.01 --set rates/haptic=20000 ";

@@ -61,6 +61,16 @@ TEST(Override, ListsMayBeWrittenOrSkipped) {
   EXPECT_EQ(load({{"devices/device/index/fingertip_radius", "0.01"}}).devices[1].fingertip_radius, 0.01);
 }
 
+// A star stands for every element or name from which the path can go on: the table has no <visual>, wood gets its
+// <friction>.
+TEST(Override, AStarReachesEveryElement) {
+  for (const Body& body : load({{"body/*/pos", "0 0 3"}}).bodies) EXPECT_EQ(body.X_WB.p.z(), 3);
+  EXPECT_EQ(load({{"*/dynamics", "250"}}).rates.dynamics, 250);
+  for (const Material& material : load({{"material/*/friction/static", "0.7"}}).materials)
+    EXPECT_EQ(material.friction_static, 0.7);
+  load({{"body/*/visual/pos", "0 0 1"}});
+}
+
 // An attribute with a default can be overridden even if it is absent from the file.
 TEST(Override, ReachesValuesThatStandNotInTheFile) {
   EXPECT_EQ(load({{"material/wood/damping", "3"}}).materials[1].damping, 3);
@@ -113,6 +123,9 @@ TEST(Override, PathThatLeadsNowhereSaysWhatExistsThere) {
       {"", "a part of the path is empty"},
       {"body//physics/mass", "a part of the path is empty"},
       {"colour", "world, rates"},
+      {"body/*/physic/mass", "nothing at body/* has 'physic'"},
+      {"*/colour", "nothing at * has 'colour'"},
+      {"body/*", "the path ends"},
   };
   for (const BadPath& bad : kBad) {
     const Diagnostic finding = onlyFinding(bad.path, "1");
