@@ -125,7 +125,7 @@ TEST(Override, PathThatLeadsNowhereSaysWhatExistsThere) {
       {"colour", "world, rates"},
       {"body/*/physic/mass", "nothing at body/* has 'physic'"},
       {"*/colour", "nothing at * has 'colour'"},
-      {"body/*", "the path ends"},
+      {"body/*", "no body '*'"},
   };
   for (const BadPath& bad : kBad) {
     const Diagnostic finding = onlyFinding(bad.path, "1");
