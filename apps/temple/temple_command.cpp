@@ -140,7 +140,7 @@ std::vector<Pose> strew(const temple::Building& building, std::uint64_t seed) {
   return temple::strewRuins(building, seed, scratch.path().string(), tell).X_WB;
 }
 
-/// The scene of the ruins; `shipped`: size of a shipped building, else empty. No value when interrupted.
+/// The scene of the ruins; `shipped`: name of a shipped building, else empty. No value when interrupted.
 std::optional<temple::SceneSpec> ruinsOf(const temple::Building& building, std::uint64_t seed,
                                          const std::string& shipped) {
   std::optional<std::vector<Pose>> X_WB = temple::shippedRuins(shipped, seed);
@@ -342,7 +342,7 @@ int runOnce(Arguments& a, Next& next, double& seconds) {
 
   if (!spec)
     spec = a.assembled ? temple::assembled(*building)
-                       : ruinsOf(*building, a.seed, a.parameters.empty() && !a.tenon ? a.size : "");
+                       : ruinsOf(*building, a.seed, a.parameters.empty() && !a.tenon ? building_name : "");
   if (!spec) return kExitInterrupted;
   if (!a.assembled || a.visit()) {
     spec->to_be_built = true;

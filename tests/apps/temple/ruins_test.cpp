@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "apps/common/atomic_file.h"
 #include "apps/temple/ruins.h"
 #include "apps/temple/ruins_cache.h"
 #include "apps/temple/spots.h"
+#include "framework/scene/load.h"
 #include "tests/apps/temple/support.h"
 
 namespace presa::temple {
@@ -61,6 +63,22 @@ TEST(Ruins, OfAColumnLieStillForEverySeed) {
     const Ruins ruins = ruinsOf(column, seed);
     expectGoodRuins(column, ruins);
     if (seed == 1) expectShipped(column, ruins);
+  }
+}
+
+// The shipped ruins are those of the plan they were made of.
+TEST(Ruins, OfAnotherPlanAreItsOwn) {
+  const std::string folder = test::scratch("other_plan");
+  const std::string command = PRESA_BINARY_DIR "/bin/presa temple --size column --plan parthenon --overwrite --write ";
+  ASSERT_EQ(std::system((command + folder + " >" + folder + ".txt 2>&1").c_str()), 0);
+  const Building column = shippedBuilding("parthenon_column", 1);
+  const Ruins ruins = ruinsOf(column, 1);
+  Diagnostics diagnostics;
+  const Scene written = loadScene(folder + "/scene.xml", {}, diagnostics);
+  ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+  for (std::size_t i = 0; i < column.blocks.size(); ++i) {
+    EXPECT_EQ(written.bodies[i].name, column.blocks[i].name);
+    EXPECT_LT((written.bodies[i].X_WB.p - ruins.X_WB[i].p).norm(), 1e-12) << column.blocks[i].name;
   }
 }
 
@@ -131,6 +149,7 @@ TEST(RuinsCache, KeepsPosesToTheBit) {
 TEST(RuinsCache, ShipsTheFirstSeedOnly) {
   EXPECT_FALSE(shippedRuins("facade", 2));
   EXPECT_FALSE(shippedRuins("first", 1));  // stands at once
+  EXPECT_FALSE(shippedRuins("parthenon_column", 1));
   EXPECT_FALSE(shippedRuins("", 1));
 }
 
