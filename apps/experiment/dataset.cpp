@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "apps/experiment/journal.h"
 #include "apps/experiment/seal.h"
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/checksum/checksum.h"
@@ -12,8 +13,6 @@ namespace presa::experiment {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kJournal = "journal.jsonl";
 
 /// Validates one session file by file.
 class Validation {
@@ -30,9 +29,9 @@ class Validation {
       return verdict_;
     }
     verdict_.seal = contents.sum;
-    known_.insert({"journal.jsonl", "trials.csv", "trials.json", kSignatureFile});
+    known_.insert({kJournal, "trials.csv", "trials.json", kSignatureFile});
     if (contents.torn_bytes > 0)
-      find("journal.jsonl: " + std::to_string(contents.torn_bytes) + " bytes of a record that was never finished");
+      find(std::string(kJournal) + ": " + std::to_string(contents.torn_bytes) + " bytes of a record that was never finished");
     for (const auto& [name, sum] : contents.records.front().at("sha256").items()) checkSum(name, sum);
     for (const LoggedRun& run : log_.runs) checkRun(run);
     if (!log_.complete) find("the session is not finished: presa experiment resume goes on with it");

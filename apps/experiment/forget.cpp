@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kJournal = "journal.jsonl";
-
 bool isTable(const fs::path& file) { return file.extension() == ".csv" || file.extension() == ".tsv"; }
 char separatorOf(const fs::path& file) { return file.extension() == ".csv" ? ',' : '\t'; }
 

@@ -7,6 +7,8 @@ namespace presa::experiment {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr const char* kJournal = "journal.jsonl";  ///< the log's file in the folder of a session
+
 /// The write-ahead log of a session: one JSON record per line, on disk before append() returns. Each line carries the
 /// SHA-256 of the previous line's sum followed by its own record, so a changed, missing or added line is detected. A
 /// last line without its end is the trace of a crash. A copy of the last sum proves the whole log later, and, by the

@@ -17,7 +17,7 @@ namespace presa::experiment {
 struct SessionFolder {
   std::string path;
   std::string file(const std::string& name) const { return path + "/" + name; }
-  std::string journal() const { return file("journal.jsonl"); }
+  std::string journal() const { return file(kJournal); }
   /// Path of a file that the log names relative to the folder; empty stays empty.
   std::string named(const std::string& relative) const;
   /// File names of the recordings of one run of a trial.

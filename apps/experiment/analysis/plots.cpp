@@ -17,7 +17,7 @@ using svg::Layer;
 using Kind = svg::Layer::Kind;
 using terminal::format;
 
-double numberOf(const std::string& label) {
+double levelValue(const std::string& label) {
   double value = 0;
   return xml::readNumber(label, value) == xml::NumberKind::kFinite ? value : FacetPoint::kNone;
 }
@@ -124,7 +124,7 @@ Section section(const wanted::MeansPlot& what, const Context& context) {
   for (const auto& cell : means.cells) {
     svg::Facet& facet =
         figure.facets[indexOf(rows, cell.group.levels[0]) * columns.size() + indexOf(columns, cell.group.levels[1])];
-    FacetPoint point{numberOf(cell.group.levels[2]), cell.mean};
+    FacetPoint point{levelValue(cell.group.levels[2]), cell.mean};
     if (const auto& interval = within ? cell.within_subject : cell.over_trials)
       point.low = interval->low, point.high = interval->high;
     point.label =
@@ -174,7 +174,7 @@ Section section(const wanted::MarginPlot& what, const Context& context) {
     }
     const auto median = statistics::median(margins);
     if (!median) continue;
-    FacetPoint point{numberOf(group.levels[2]), *median};
+    FacetPoint point{levelValue(group.levels[2]), *median};
     point.label = labelOf(context, by, group) + format("\nmargin %.1f %%, n %zu", *median, margins.size());
     figure.facets[indexOf(shapes, group.levels[1])].layers[indexOf(colors, group.levels[0])].points.push_back(point);
     std::vector<Cell> cells(group.levels.begin(), group.levels.end());

@@ -6,6 +6,7 @@
 #include "apps/common/terminal/job_progress.h"
 #include "apps/experiment/analysis/analyse.h"
 #include "apps/experiment/commands/experiment_commands.h"
+#include "apps/experiment/journal.h"
 
 namespace presa {
 namespace {
@@ -20,7 +21,7 @@ std::string outOf(const AnalyseArguments& a) {
   if (!a.out.empty()) return a.out;
   std::filesystem::path data = std::filesystem::path(a.request.data).lexically_normal();
   if (!data.has_filename()) data = data.parent_path();
-  if (std::filesystem::exists(data / "journal.jsonl")) return data.string() + "-analysis";
+  if (std::filesystem::exists(data / kJournal)) return data.string() + "-analysis";
   return (data / "analysis").string();
 }
 

@@ -7,6 +7,7 @@
 #include "apps/common/exit_status.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/text.h"
+#include "apps/experiment/journal.h"
 #include "apps/experiment/session_log.h"
 #include "apps/experiment/simulate/variations.h"
 #include "framework/core/diagnostics/refuse.h"
@@ -99,7 +100,6 @@ void putFile(const fs::path& from, const fs::path& to) {
 
 /// A session of a shard replaces one of before: the plan is the same, and so is what it simulates.
 void putSession(const fs::path& from, const fs::path& to) {
-  constexpr const char* kJournal = "journal.jsonl";
   std::error_code error;
   if (fs::equivalent(from / kJournal, to / kJournal, error)) return;
   fs::remove_all(to, error);
