@@ -31,7 +31,8 @@ class Validation {
     verdict_.seal = contents.sum;
     known_.insert({kJournal, "trials.csv", "trials.json", kSignatureFile});
     if (contents.torn_bytes > 0)
-      find(std::string(kJournal) + ": " + std::to_string(contents.torn_bytes) + " bytes of a record that was never finished");
+      find(std::string(kJournal) + ": " + std::to_string(contents.torn_bytes) +
+           " bytes of a record that was never finished");
     for (const auto& [name, sum] : contents.records.front().at("sha256").items()) checkSum(name, sum);
     for (const LoggedRun& run : log_.runs) checkRun(run);
     if (!log_.complete) find("the session is not finished: presa experiment resume goes on with it");

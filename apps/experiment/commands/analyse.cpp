@@ -21,7 +21,7 @@ std::string outOf(const AnalyseArguments& a) {
   if (!a.out.empty()) return a.out;
   std::filesystem::path data = std::filesystem::path(a.request.data).lexically_normal();
   if (!data.has_filename()) data = data.parent_path();
-  if (std::filesystem::exists(data / kJournal)) return data.string() + "-analysis";
+  if (std::filesystem::exists(data / experiment::kJournal)) return data.string() + "-analysis";
   return (data / "analysis").string();
 }
 
