@@ -35,9 +35,10 @@ std::string rolling(const std::string& settings, const std::string& shape) {
     <set key="motion" value="roll.csv"/></device></rig>)");
   writeScratch("roll.xml", R"(<scene version="1.1" name="roll" rig="roll_rig.xml"><world gravity="0 0 0"/>
     <haptics tools="pointshell"><pointshell )" +
-                        settings + R"(/></haptics><materials><material name="smooth" stiffness="1000"/></materials>
+                               settings +
+                               R"(/></haptics><materials><material name="smooth" stiffness="1000"/></materials>
     <body name="other" fixed="true" material="smooth"><haptic>)" +
-                        shape + R"(</haptic></body>
+                               shape + R"(</haptic></body>
     <devices><device role="ball"><tool stiffness="1000" turn_stiffness="2"><sphere radius="0.02"/></tool></device></devices>
     </scene>)");
   return test::scratch("roll.xml");
