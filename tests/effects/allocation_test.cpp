@@ -2,7 +2,7 @@
 
 #include "framework/session/load_world.h"
 #include "framework/session/session.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/guarded_steps.h"
 

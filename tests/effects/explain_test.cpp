@@ -9,7 +9,7 @@
 #include "apps/presa/explain/module_times.h"
 #include "framework/core/schedule/executor.h"
 #include "framework/session/session.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

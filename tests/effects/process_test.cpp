@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/effects/instructions.h"
 
 namespace presa {

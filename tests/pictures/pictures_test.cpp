@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "apps/studies/stability/report.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/pictures/grey_grid.h"
 
 namespace presa {

@@ -9,7 +9,7 @@
 
 #include "apps/common/file_text.h"
 #include "framework/session/load_world.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/pictures/scenes.h"
 
 namespace presa {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <set>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/pictures/scenes.h"
 #include "tests/pictures/seen_difference.h"
 #include "tests/support/png_picture.h"

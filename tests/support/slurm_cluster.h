@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::test {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/presa/check/overlap.h"
 #include "apps/presa/check/start_warnings.h"
 #include "framework/scene/load.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/made_model.h"
 
 namespace presa {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/presa/device/findings.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::device {
 namespace {

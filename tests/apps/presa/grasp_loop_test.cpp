@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "apps/common/grasp_figures.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

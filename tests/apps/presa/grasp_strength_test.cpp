@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/summary.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::test {
 namespace {

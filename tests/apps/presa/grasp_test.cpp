@@ -4,7 +4,7 @@
 
 #include "apps/common/grasp_figures.h"
 #include "apps/common/verdict.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/framework/record/monitor/synthetic_run.h"
 
 namespace presa::test {

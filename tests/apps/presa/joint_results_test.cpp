@@ -13,7 +13,7 @@
 #include "apps/presa/replay_page/signals.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/png_picture.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/presa/model/model_files.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "apps/common/options/view_options.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

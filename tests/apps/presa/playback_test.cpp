@@ -9,7 +9,7 @@
 
 #include "apps/presa/playback/recorded_moment.h"
 #include "framework/record/record_plugin.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

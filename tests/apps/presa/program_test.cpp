@@ -6,7 +6,7 @@
 
 #include "apps/common/file_text.h"
 #include "framework/record/record_plugin.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

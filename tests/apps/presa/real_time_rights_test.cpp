@@ -12,7 +12,7 @@
 
 #include "framework/session/load_world.h"
 #include "framework/session/realtime_policy.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "framework/session/session.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa {

@@ -8,7 +8,7 @@
 #include "framework/core/schedule/clock.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/on_terminal.h"
 
 namespace presa {

@@ -14,7 +14,7 @@
 #include "apps/presa/replay_page/replay_page.h"
 #include "apps/presa/replay_page/signals.h"
 #include "framework/record/record_plugin.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

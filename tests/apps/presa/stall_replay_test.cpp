@@ -6,7 +6,7 @@
 #include "framework/record/record_plugin.h"
 #include "framework/session/replay.h"
 #include "framework/session/run.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "framework/device/wrapped_device.h"
 #include "framework/session/stiffness_bound.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "devices/hand/finger_plant.h"
 #include "devices/linking_hand/linked_pair.h"
 #include "framework/scene/load.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/shipped_rig.h"
 
 namespace presa {

@@ -10,7 +10,7 @@
 #include "devices/percro_arm/linked_arms.h"
 #include "devices/percro_arm/steps.h"
 #include "framework/scene/load.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {

@@ -11,7 +11,7 @@
 #include "devices/percro_arm/reach.h"
 #include "devices/percro_arm/steps.h"
 #include "framework/core/math/random.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/devices/percro_arm/arm.h"
 
 namespace presa::percro {

@@ -10,7 +10,7 @@
 #include "devices/percro_arm/drawn_parts.h"
 #include "framework/record/record_plugin.h"
 #include "framework/session/load_world.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/png_picture.h"
 
 namespace presa::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "framework/device/device_plugin.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 
 namespace presa::pointer {

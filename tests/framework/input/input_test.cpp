@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "framework/input/folders.h"
-#include "tests/framework/input/program.h"
+#include "tests/apps/presa/files/program.h"
 
 namespace presa {
 namespace {

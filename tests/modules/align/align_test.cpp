@@ -5,7 +5,7 @@
 
 #include "framework/device/device_plugin.h"
 #include "framework/record/record_plugin.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/effect_field.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/modules/haptics_proxy/surface/support/finger_rig.h"
 #include "tests/modules/haptics_proxy/surface/support/mesh_files.h"
 #include "tests/modules/haptics_proxy/surface/support/wanderer.h"

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/lockstep_run.h"
 
 // From the command line: the shipped cube with body effects, from XML alone.

@@ -6,7 +6,7 @@
 #include "framework/core/math/random.h"
 #include "framework/geometry/closest_point.h"
 #include "modules/fca_mesh/mesh_walk.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/modules/haptics_proxy/module_fixture.h"
 #include "tests/modules/haptics_proxy/renderer_scene.h"
 #include "tests/support/alloc_lock_guard.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 // From the command line: the shipped cube with another friction law, from XML alone.
 namespace presa {

@@ -1,7 +1,7 @@
 // The shipped scenes of the friction laws: each loads its own law and no other, and runs to its end.
 #include <gtest/gtest.h>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::law_scenes {
 namespace {

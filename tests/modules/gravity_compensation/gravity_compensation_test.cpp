@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/body_effect_field.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::test {
 

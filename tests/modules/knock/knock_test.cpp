@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/lockstep_run.h"
 #include "tests/support/rendered_body.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 // From the command line: the shipped cube with force effects, from XML alone.
 namespace presa {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/rendered_body.h"
 
 // From the command line: the shipped cube with another renderer, from XML alone.

@@ -1,7 +1,7 @@
 // From the command line: the shipped scene, and the shipped cube with force perturbation, from XML alone.
 #include <gtest/gtest.h>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/lockstep_run.h"
 
 namespace presa {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 // From the command line: the shipped scenes with surface effects, from XML alone.
 namespace presa {

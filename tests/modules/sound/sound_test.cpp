@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "framework/sound/strike.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/modules/texture/texture_fixture.h"
 
 namespace presa::test {

@@ -3,7 +3,7 @@
 #include <regex>
 
 #include "apps/common/file_text.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/drawn_part.h"
 
 namespace presa {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 #include "tests/support/alloc_lock_guard.h"
 #include "tests/support/lockstep_run.h"
 #include "tests/support/rendered_body.h"

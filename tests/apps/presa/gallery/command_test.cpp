@@ -11,7 +11,7 @@
 #include "apps/presa/gallery/entries.h"
 #include "apps/presa/gallery/listing.h"
 #include "apps/presa/gallery/mouse_rig.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -10,7 +10,7 @@
 #include "apps/presa/gallery/mouse_rig.h"
 #include "framework/scene/load.h"
 #include "framework/session/run.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "apps/common/scratch_folder.h"
 #include "apps/presa/import/import_robot.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::robot {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/studies/cost/orders.h"
 #include "apps/studies/cost/plan.h"
 #include "apps/studies/cost/reference_levels.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::cost {
 namespace {

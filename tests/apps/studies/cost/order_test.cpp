@@ -11,7 +11,7 @@
 #include "experiments/study/free_motion.h"
 #include "experiments/study/prescribed_finger.h"
 #include "experiments/study/study_run.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::cost {
 namespace {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "apps/common/file_text.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

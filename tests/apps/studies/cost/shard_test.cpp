@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/file_text.h"
-#include "tests/apps/presa/support.h"
 #include "tests/apps/studies/cost/shard_support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

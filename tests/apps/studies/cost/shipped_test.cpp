@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "apps/studies/cost/plan.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::cost {
 namespace {

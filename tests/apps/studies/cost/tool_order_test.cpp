@@ -9,7 +9,7 @@
 #include "apps/studies/cost/plan.h"
 #include "framework/geometry/tri_mesh.h"
 #include "framework/input/folders.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::cost {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "apps/common/file_text.h"
 #include "framework/session/realtime_rights.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "apps/common/file_text.h"
 #include "apps/studies/lectures/lecture.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::lectures {
 namespace {

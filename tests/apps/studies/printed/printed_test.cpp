@@ -9,7 +9,7 @@
 
 #include "apps/common/file_text.h"
 #include "apps/studies/printed/comparison.h"
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::printed {
 namespace {

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "apps/studies/stability/report.h"
-#include "tests/apps/presa/support.h"
 #include "tests/apps/studies/stability/made_rows.h"
+#include "tests/apps/support/support.h"
 
 namespace presa::stability {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/apps/presa/support.h"
+#include "tests/apps/support/support.h"
 
 #include <sys/wait.h>
 

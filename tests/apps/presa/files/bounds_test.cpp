@@ -3,7 +3,7 @@
 #include "apps/common/file_text.h"
 #include "framework/scene/load.h"
 #include "framework/scene/xml/source_scan.h"
-#include "tests/framework/input/program.h"
+#include "tests/apps/presa/files/program.h"
 
 // Small files that demand much: refused by their counts, before anything is built from them.
 namespace presa {

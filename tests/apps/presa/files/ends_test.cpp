@@ -5,7 +5,7 @@
 
 #include "apps/common/file_text.h"
 #include "framework/record/record_plugin.h"
-#include "tests/framework/input/program.h"
+#include "tests/apps/presa/files/program.h"
 
 // How the program ends on outside events: signals, closed or full outputs.
 namespace presa {

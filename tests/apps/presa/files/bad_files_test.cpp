@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "tests/framework/input/program.h"
+#include "tests/apps/presa/files/program.h"
 
 // Each kind of input file, replaced by one that blocks, never ends, is too large, or lies in a forbidden folder. The
 // program must report the finding with exit status 2 before the 60 s after which a command counts as hanging (status

@@ -1,4 +1,4 @@
-#include "tests/framework/input/program.h"
+#include "tests/apps/presa/files/program.h"
 
 #include <sys/stat.h>
 #include <sys/wait.h>
