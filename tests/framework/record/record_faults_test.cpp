@@ -13,6 +13,7 @@
 #include "framework/core/diagnostics/diagnostics.h"
 #include "framework/record/record_plugin/reader.h"
 #include "tests/framework/record/recording_fixture.h"
+#include "tests/support/effort.h"
 
 namespace presa::record {
 namespace {
@@ -90,7 +91,7 @@ void recordTicks(const std::string& file, std::uint64_t ticks) {
 // without pause, so that the kill falls between or inside writes.
 TEST(KilledRun, IsReadableUpToItsLastFlush) {
   std::mt19937 random(7);
-  for (int repeat = 0; repeat < 12; ++repeat) {
+  for (int repeat = 0; repeat < unlessSanitized(12, 3); ++repeat) {
     const ScratchFolder folder;
     const std::string file = folder.file("run.h5");
     Child child([&](int to_parent) {

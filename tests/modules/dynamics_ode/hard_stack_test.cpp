@@ -125,7 +125,7 @@ TEST(Heap, Of125CubesSettles) {
     const Vec3 size = side < 2 ? Vec3(0.05, 1, 2) : Vec3(1, 0.05, 2);
     maker.fixedBox(size, {side < 2 ? Vec3(out, 0, 0.9) : Vec3(0, out, 0.9), Quat::Identity()});
   }
-  constexpr int kCubes = unlessSanitized(125, 50);
+  constexpr int kCubes = unlessSanitized(125, 25);
   for (int i = 0; i < kCubes; ++i) {
     const Vec3 cell(i % 5 - 2, i / 5 % 5 - 2, i / 25 + 0.6);
     maker.box(Vec3::Constant(kEdge), 0.1, {0.062 * cell, turn(0.7 * i, {1, 1.0 * (i % 3), 1.0 * (i % 5)})});
@@ -172,9 +172,10 @@ TEST(Heap, FingerOnALargeIslandHoldsALightCube) {
     fingers[0].damping = 1;
     fingers[0].p_WH = runner[1].X_WB_end.p + fingers[0].p_BP - 0.0005 * Vec3::UnitZ();
     double min = 1e300, max = 0;
-    for (int n = 0; n < 150; ++n) {
+    constexpr int kSteps = unlessSanitized(150, 10), kSettling = unlessSanitized(100, 5);
+    for (int n = 0; n < kSteps; ++n) {
       runner.step(exchangeOf(fingers, runner));
-      if (n < 100) continue;
+      if (n < kSettling) continue;
       const double force = runner.bodies.fingerForce(0).norm();
       min = std::min(min, force);
       max = std::max(max, force);
@@ -186,6 +187,7 @@ TEST(Heap, FingerOnALargeIslandHoldsALightCube) {
   const auto [ode, ode_force] = press(Solver::kIterative);
   RecordProperty("chatter_percent",
                  std::to_string(100 * newton) + ", " + std::to_string(100 * steps) + ", " + std::to_string(100 * ode));
+  if (unlessSanitized(false, true)) return;  // too short to settle
   EXPECT_NEAR(newton_force, 5, 0.05);
   EXPECT_NEAR(steps_force, 5, 0.5);
   EXPECT_LT(newton, 0.005);

@@ -1,6 +1,7 @@
 #include "tests/modules/dynamics_ode/pendulum.h"
 #include "tests/modules/dynamics_ode/support.h"
 #include "tests/support/alloc_lock_guard.h"
+#include "tests/support/effort.h"
 
 namespace presa::ode {
 namespace {
@@ -38,7 +39,7 @@ TEST(Joint, PendulumKeepsPeriodAndEnergyForAMinute) {
     Runner& runner = *pendulum.runner;
     const double arm = Pendulum::kMass * kGravity * Pendulum::kLength / 2;
     const double period = 4 * std::sqrt(pendulum.about_joint / arm) * ellipticK(std::sin(start / 2));
-    const Swing swung = swingOver(12000, kStep, [&] {
+    const Swing swung = swingOver(unlessSanitized(12000, 1500), kStep, [&] {
       runner.step();
       return std::pair(pendulum.angle(), pendulum.potential());
     });
@@ -57,7 +58,7 @@ TEST(Joint, HingeHoldsAHundredNewtonsForAMinute) {
   Runner runner(std::make_shared<World>(world), awake());
   runner.bodies.setVelocity(0, Vec3::Zero(), Vec3::Zero());
   double gap = 0, tilt = 0;
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < unlessSanitized(12000, 1500); ++i) {
     runner.step();
     const Pose X_WB = runner[0].X_WB_end;
     gap = std::max(gap, (X_WB * Vec3(-0.15, 0, 0)).norm());
@@ -227,7 +228,7 @@ struct Chain {
 TEST(Joint, ChainWithAHeavyEndHangsStill) {
   Chain chain;
   double moved = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < unlessSanitized(2000, 200); ++i) {
     chain.runner->step();
     moved = std::max(moved, (chain.end() - Vec3(0, 0, -Chain::kEnd)).norm());
   }
@@ -240,7 +241,7 @@ TEST(Joint, ChainWithAHeavyEndSwingsWithoutGainingEnergy) {
   chain.runner->bodies.setVelocity(10, {speed, 0, 0}, Vec3::Zero());
   chain.runner->bodies.setVelocity(4, {0, 0.2, 0}, {3, 0, 0});  // shakes a link: 2e-5 J, 0.002 mm of the weight
   double rise = 0, stretch = 0;
-  for (int i = 0; i < 12000; ++i) {
+  for (int i = 0; i < unlessSanitized(12000, 1000); ++i) {
     chain.runner->step();
     rise = std::max(rise, chain.end().z() + Chain::kEnd);
     stretch = std::max(stretch, chain.end().norm() - Chain::kEnd);

@@ -2,6 +2,7 @@
 
 #include "tests/framework/geometry/hollow_meshes.h"
 #include "tests/modules/dynamics_ode/support.h"
+#include "tests/support/effort.h"
 
 // ODE's cache for meshes is one for all threads of the process.
 namespace presa::ode {
@@ -20,7 +21,7 @@ std::vector<Vec3> whereBallsEnd(int seed) {
   OdeOptions options;
   options.method.sleeping = false;
   Runner runner(maker.world(), options);
-  runner.run(10);
+  runner.run(unlessSanitized(10, 1));
   std::vector<Vec3> ends;
   for (std::size_t ball = 1; ball <= 4; ++ball) ends.push_back(runner[ball].X_WB_end.p);
   return ends;

@@ -46,7 +46,7 @@ TEST(Determinism, SameCallsGiveTheSameBits) {
     Runner b(world, options);
     std::vector<ReferenceFinger> fingers = pinch(14, 0.05, 0.002, 2000, 0.8);
     for (ReferenceFinger& finger : fingers) finger.p_WH += a[14].X_WB_end.p;
-    for (int n = 0; n < unlessSanitized(200, 50); ++n) {
+    for (int n = 0; n < unlessSanitized(200, 10); ++n) {
       const ContactExchange exchange = exchangeOf(fingers, a);
       a.step(exchange);
       b.step(exchange);
