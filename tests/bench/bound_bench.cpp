@@ -61,7 +61,7 @@ void query(benchmark::State& state, int triangles, double radius) {
   state.counters["touched"] = touched / queries;
 }
 
-const bool kRegistered = [] {
+const bool kBoundRegistered = [] {
   const std::pair<const char*, double> radii[] = {{"r0", 0}, {"r0p1mm", 1e-4}, {"r1mm", 1e-3}, {"r8mm", 8e-3}};
   for (const int n : {20'480, 327'680, 1'310'720}) {
     for (const auto& [size, radius] : radii) {

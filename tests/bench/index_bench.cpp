@@ -94,7 +94,7 @@ void query(benchmark::State& state, Index kind, int triangles, double reach, Ans
   state.counters["build_ms"] = all.build_ms;
 }
 
-const bool kRegistered = [] {
+const bool kIndexRegistered = [] {
   // the point of a probe; a fingertip of 8 mm and what it moves until the next query; the same as the tree takes it, so
   // that it serves for several queries
   const std::pair<const char*, double> reaches[] = {{"r0p1mm", 1e-4}, {"r18mm", 0.018}, {"r67mm", 0.067}};

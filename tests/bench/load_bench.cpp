@@ -63,7 +63,7 @@ bool load(const std::string& file) {
   return true;
 }
 
-struct Loaded {
+struct LoadedMesh {
   double us = 0;
   double peak_mib = 0;
   bool well = false;
@@ -72,7 +72,7 @@ struct Loaded {
 constexpr const char* kFileToLoad = "PRESA_BENCH_LOAD";
 
 /// Loads the file in a new process of this program, so that its peak memory is that of the load.
-Loaded loadApart(const std::string& file, const std::string& benchmark) {
+LoadedMesh loadApart(const std::string& file, const std::string& benchmark) {
   setenv(kFileToLoad, file.c_str(), 1);
   const pid_t child = fork();
   if (child == 0) {
@@ -97,7 +97,7 @@ void loadSphere(benchmark::State& state, int triangles) {
   std::vector<double> us;
   double peak_mib = 0;
   for (auto _ : state) {
-    const Loaded loaded = loadApart(file, "load/sphere_" + std::to_string(triangles));
+    const LoadedMesh loaded = loadApart(file, "load/sphere_" + std::to_string(triangles));
     if (!loaded.well) {
       state.SkipWithError("the mesh was not loaded");
       break;
@@ -111,7 +111,7 @@ void loadSphere(benchmark::State& state, int triangles) {
   state.counters["peak_mib"] = peak_mib;
 }
 
-const bool kRegistered = [] {
+const bool kLoadRegistered = [] {
   const auto add = [](const std::string& name, void (*measure)(benchmark::State&, int), int triangles) {
     benchmark::RegisterBenchmark((name + "/sphere_" + std::to_string(triangles)).c_str(), [=](benchmark::State& state) {
       measure(state, triangles);

@@ -194,7 +194,7 @@ void add(const std::string& name, Measure measure, const MakeRig& make) {
   })->Unit(benchmark::kMillisecond);
 }
 
-const bool kRegistered = [] {
+const bool kProxyRegistered = [] {
   const std::pair<const char*, double> radii[] = {{"r0", 0}, {"r0p1mm", 1e-4}, {"r1mm", 1e-3}, {"r8mm", 8e-3}};
   for (const int n : {20'480, 327'680, 1'310'720}) {
     const std::string sphere = "sphere_" + std::to_string(n);
