@@ -5,11 +5,6 @@
 
 namespace presa::cost {
 
-void Sum::add(double x) {
-  squares += x * x;
-  largest = std::max(largest, x);
-  ++count;
-}
 Value Sum::rms() const { return count > 0 ? Value(std::sqrt(squares / static_cast<double>(count))) : std::nullopt; }
 Value Sum::peak() const { return count > 0 ? Value(largest) : std::nullopt; }
 

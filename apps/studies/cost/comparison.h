@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <optional>
 
@@ -13,7 +14,14 @@ using Value = std::optional<double>;
 struct Sum {
   double squares = 0, largest = 0;
   std::size_t count = 0;
-  void add(double x);
+  void add(double x) {
+    addSquare(x * x);
+    largest = std::max(largest, x);
+  }
+  void addSquare(double square) {  ///< peak() does not know it
+    squares += square;
+    ++count;
+  }
   Value rms() const;
   Value peak() const;
 };

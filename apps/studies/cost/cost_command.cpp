@@ -39,7 +39,7 @@ int runCost(Arguments a) {
   if (diagnostics.hasErrors()) throw InputError(std::move(diagnostics));
   const Study study = planStudy(a.request, diagnostics);
   if (!a.apply.empty()) checkApply(a.apply, study, diagnostics);
-  if (!study.folder.empty() && !diagnostics.hasErrors()) checkFolder(study.folder, diagnostics);
+  if (!study.folder.empty() && !diagnostics.hasErrors()) checkFolder(study, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
   if (a.request.shard) return runPart(a, study);
@@ -68,8 +68,8 @@ void addCost(Command app, int& status) {
       .checked(cluster::shardTrouble, "I/N");
   command.flag("--resume", a->resume, "keep the runs that an interrupted study has made");
   command.footer(
-      "Exit status: 0 done, 1 the reference could not be run, 2 bad input (nothing was run), 130 Ctrl-C (kept for "
-      "--resume).\n"
+      "Exit status: 0 done, 1 the reference could not be run or the disk is full, 2 bad input (nothing was run),\n"
+      "130 Ctrl-C (kept for --resume).\n"
       "A setting beats the default if it is no dearer (within 5 %), as accurate in every judged error, and 1.3 times\n"
       "better in one or in cost, or more accurate in all. Judged are the errors with a <front> in the study.\n"
       "latency [s] delays each command on its way to the finger; haptic_jitter, collision_jitter and dynamics_jitter\n"

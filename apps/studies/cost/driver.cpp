@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "apps/common/atomic_file.h"
@@ -44,6 +47,16 @@ struct Task {
 
 int workersOf(const DriverOptions& options) {
   return options.workers > 0 ? options.workers : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// What prevents a result from being written, such as a full disk; empty: it is written.
+std::string unlessWritten(const std::function<void()>& write) {
+  try {
+    write();
+    return {};
+  } catch (const std::system_error& error) {
+    return error.what();
+  }
 }
 
 Forecast::Run runOf(const Task& task) {
@@ -111,7 +124,8 @@ class Driver {
   Timing timing(const Task& task) const;
   bool isMeasured(const Task& task) const;
   std::size_t lost() const;
-  void compare(std::size_t levels);
+  /// With that many levels of the reference. False: a finer one is needed, and there is one.
+  bool compare(std::size_t levels);
   bool allResolved() const;
   void collect();
 
@@ -128,6 +142,7 @@ class Driver {
   bool stopped_ = false;
   std::unique_ptr<terminal::JobProgress> progress_;
   Forecast forecast_;
+  std::int64_t forecast_due_ns_ = 0;
 };
 
 void Driver::prepare() {
@@ -191,7 +206,10 @@ MachineTurn Driver::takeTurn(MachineTurn::Kind kind) {
 
 void Driver::ended(const Task& task, double seconds, const std::string& what) {
   forecast_.done(runOf(task), seconds);
-  if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
+  if (const std::int64_t now = monotonicNs(); now >= forecast_due_ns_) {
+    if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
+    forecast_due_ns_ = now + 200'000'000;
+  }
   progress_->done(what);
 }
 
@@ -213,7 +231,7 @@ bool Driver::isMeasured(const Task& task) const {
   return store_->hasTiming(task.hash, task.repeat) && store_->timing(task.hash, task.repeat).hardware == hardware_;
 }
 
-// A job saves its result on disk; it returns text only on failure.
+// A job saves its result on disk; it returns text only if it cannot.
 void Driver::work(const std::vector<Task>& tasks, int workers, const std::string& what) {
   std::vector<Task> missing;
   std::set<std::pair<std::uint64_t, int>> planned;
@@ -226,10 +244,12 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
   }
   JobOptions jobs;
   jobs.workers = workers;
-  jobs.stop = [] { return terminal::JobProgress::interrupted(); };
+  std::string unwritten;
+  jobs.stop = [&] { return !unwritten.empty() || terminal::JobProgress::interrupted(); };
   jobs.on_wait = [&] { progress_->show(); };
   jobs.on_done = [&](std::size_t i, const JobResult& job) {
     ended(missing[i], job.seconds, what);
+    if (job.outcome == JobResult::Outcome::kDone && !job.text.empty()) unwritten = job.text;
     if (job.outcome == JobResult::Outcome::kDone || job.outcome == JobResult::Outcome::kNotRun ||
         missing[i].repeat >= 0)
       return;
@@ -237,7 +257,7 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     evidence.seconds = job.seconds;
     evidence.failure = job.outcome == JobResult::Outcome::kTimedOut ? kTooLong : job.text;
     if (!keeps_killed_ && job.killed) return;
-    store_->save(missing[i].hash, evidence);
+    unwritten += unlessWritten([&] { store_->save(missing[i].hash, evidence); });
   };
   const auto results = runJobs(
       missing.size(),
@@ -247,12 +267,16 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
           const std::int64_t begin = monotonicNs();
           Evidence evidence = watch(spec(task), study_);
           evidence.seconds = static_cast<double>(monotonicNs() - begin) * 1e-9;
-          store_->save(task.hash, evidence);
-        } else
-          store_->save(task.hash, task.repeat, timing(task));
-        return std::string{};
+          return unlessWritten([&] { store_->save(task.hash, evidence); });
+        }
+        const Timing measured = timing(task);
+        return unlessWritten([&] { store_->save(task.hash, task.repeat, measured); });
       },
       jobs);
+  if (!unwritten.empty()) {
+    progress_->finish();
+    throw std::runtime_error(unwritten + "; finished runs are kept: make room, then the same command with --resume");
+  }
   for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
 }
 
@@ -304,8 +328,7 @@ void Driver::refineReference() {
   for (std::size_t levels = kFirstLevels; !stopped_; ++levels) {
     settleLevels(levels);
     if (stopped_) return;
-    compare(levels);
-    if (!study_.reference.empty() && !result_.reference.fine_enough && levels < study_.reference.size()) continue;
+    if (!compare(levels)) continue;
     result_.orders = ordersOf(result_, [&](std::uint64_t scene) { return store_->evidence(scene, true); });
     return;
   }
@@ -338,7 +361,8 @@ void Driver::timeAll(int repeat) {
   work(tasks, 1, "time");  // one at a time: parallel runs would share the cache and disturb the timing
 }
 
-void Driver::compare(std::size_t levels) {
+// One error that a finer reference is needed for is enough.
+bool Driver::compare(std::size_t levels) {
   Result::Reference& reference = result_.reference;
   using Kind = Study::Reference;
   const bool refined = study_.reference_kind == Kind::kRefined;
@@ -369,6 +393,9 @@ void Driver::compare(std::size_t levels) {
     if (!outcome.failure.empty()) continue;
     for (const std::string& name : result_.metrics) {
       if (const auto error = findMetric(name)->error(evidence, fine)) outcome.error[name] = *error;
+      const bool too_small =
+          outcome.error.contains(name) && outcome.error[name] > kRounding && !result_.resolved(outcome, name);
+      if (too_small && levels < study_.reference.size()) return false;
     }
   }
   std::erase_if(result_.metrics, [&](const std::string& name) {
@@ -377,6 +404,7 @@ void Driver::compare(std::size_t levels) {
     });
   });
   reference.fine_enough = allResolved();
+  return reference.fine_enough || levels >= study_.reference.size();
 }
 
 /// True when the reference resolves every error in the report to a tenth.
@@ -409,13 +437,21 @@ void Driver::collect() {
 
 }  // namespace
 
-void checkFolder(const std::string& folder, Diagnostics& diagnostics) {
+void checkFolder(const Study& study, Diagnostics& diagnostics) {
+  const std::string& folder = study.folder;
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!error && fs::is_directory(folder) && ::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  std::string trouble;
+  if (error || !fs::is_directory(folder) || ::access(folder.c_str(), W_OK | X_OK) != 0) {
+    trouble = error ? error.message() : "no right to";
+  } else {
+    const double free = static_cast<double>(fs::space(folder, error).available);
+    if (error || study.disk_bytes <= free) return;
+    trouble = "its runs need about " + std::to_string(std::llround(1e-6 * study.disk_bytes)) + " MB, found " +
+              std::to_string(std::llround(1e-6 * free)) + " MB that are free";
+  }
   diagnostics.error(803, {"--out " + folder, 0, 0},
-                    "cannot write into the folder '" + folder + "'" + (error ? ": " + error.message() : ""),
-                    "choose another with --out");
+                    "cannot write the study into the folder '" + folder + "': " + trouble, "choose another with --out");
 }
 
 Result runStudy(const Study& study, const DriverOptions& options) { return Driver(study, options).run(); }

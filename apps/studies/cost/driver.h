@@ -26,7 +26,7 @@ Result runStudy(const Study& study, const DriverOptions& options);
 /// from outside: their shard is not finished.
 bool runShard(const Study& study, const Shard& shard, const DriverOptions& options);
 
-/// Creates the folder and checks that it is writable: otherwise E803.
-void checkFolder(const std::string& folder, Diagnostics& diagnostics);
+/// Creates the study's folder and checks that it is writable and has room for the runs: otherwise E803.
+void checkFolder(const Study& study, Diagnostics& diagnostics);
 
 }  // namespace presa::cost

@@ -75,6 +75,7 @@ nlohmann::json toJson(const Evidence& e) {
   put(json, "energy_drift_J", e.energy_drift);
   put(json, "force_step_N", e.force_step);
   put(json, "hum_N", e.hum);
+  json["vibration_N"] = e.vibration;
   put(json, "penetration_m", e.penetration);
   put(json, "penetration_max_m", e.penetration_max);
   put(json, "rest_energy_J", e.rest_energy);
@@ -99,6 +100,7 @@ Evidence evidenceFrom(const nlohmann::json& json) {
   e.energy_drift = optionalNumber(json, "energy_drift_J");
   e.force_step = optionalNumber(json, "force_step_N");
   e.hum = optionalNumber(json, "hum_N");
+  e.vibration = json.at("vibration_N").get<std::vector<double>>();
   e.penetration = optionalNumber(json, "penetration_m");
   e.penetration_max = optionalNumber(json, "penetration_max_m");
   e.rest_energy = optionalNumber(json, "rest_energy_J");

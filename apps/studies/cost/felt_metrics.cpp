@@ -5,6 +5,7 @@
 #include "apps/studies/cost/felt_metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -30,29 +31,47 @@ struct Band {
   }
 };
 
-/// RMS of the band over the compared window [N].
-Value vibration(const Evidence& e, std::size_t finger) {
+/// How much of the band's two states is left after a force was held for `seconds`, found anew where that changes.
+struct Decay {
+  double seconds = -1, slow = 0, fast = 0;
+  void after(double held) {
+    if (held == seconds) return;
+    seconds = held;
+    slow = std::exp(-held / kSlow);
+    fast = std::exp(-held / kFast);
+  }
+};
+
+}  // namespace
+
+std::vector<double> vibrationOf(const Evidence& e) {
   const Trace& trace = e.trace;
-  Band band[3];
-  double squares = 0, time = 0;
+  std::vector<std::array<Band, 3>> bands(trace.fingers);
+  std::vector<double> squares(trace.fingers, 0);
+  double time = 0;
+  Decay decay;
   for (std::size_t i = 0; i + 1 < trace.held_from_ns.size(); ++i) {
     const double begin = 1e-9 * static_cast<double>(trace.held_from_ns[i]);
     const double held = 1e-9 * static_cast<double>(trace.held_from_ns[i + 1] - trace.held_from_ns[i]);
     const int samples = std::max(1, static_cast<int>(std::ceil(held / kSample - 1e-9)));
-    const double step = held / samples, gone_slow = std::exp(-step / kSlow), gone_fast = std::exp(-step / kFast);
+    const double step = held / samples;
+    decay.after(step);
     const bool counts = begin >= e.compared_from && begin < e.compared_to;
     for (int k = 0; k < samples; ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        band[axis].hold(static_cast<double>(trace.held[i * trace.fingers + finger][axis]), gone_slow, gone_fast);
-      if (!counts) continue;
-      for (const Band& each : band) squares += each.out * each.out * step;
-      time += step;
+      time += counts ? step : 0;
+      for (std::size_t f = 0; f < trace.fingers; ++f) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          Band& band = bands[f][axis];
+          band.hold(static_cast<double>(trace.held[i * trace.fingers + f][axis]), decay.slow, decay.fast);
+          if (counts) squares[f] += band.out * band.out * step;
+        }
+      }
     }
   }
-  return time > 0 ? Value(std::sqrt(squares / time)) : std::nullopt;
+  if (time == 0) return {};
+  for (double& each : squares) each = std::sqrt(each / time);
+  return squares;
 }
-
-}  // namespace
 
 std::optional<double> torqueError(const Evidence& setting, const Evidence& reference) {
   const auto error = [](const FingerSample& a, const FingerSample& b) -> Value {
@@ -82,12 +101,16 @@ std::optional<double> frictionError(const Evidence& setting, const Evidence& ref
 
 std::optional<double> textureError(const Evidence& setting, const Evidence& reference) {
   Value worst;
-  if (setting.trace.fingers != reference.trace.fingers) return worst;
-  for (std::size_t f = 0; f < setting.trace.fingers; ++f) {
-    const Value a = vibration(setting, f), b = vibration(reference, f);
-    if (a && b) worst = std::max(worst.value_or(0), std::abs(*a - *b));
-  }
+  if (setting.vibration.size() != reference.vibration.size()) return worst;
+  for (std::size_t f = 0; f < setting.vibration.size(); ++f)
+    worst = std::max(worst.value_or(0), std::abs(setting.vibration[f] - reference.vibration[f]));
   return worst;
+}
+
+std::optional<double> textureNoticeable(const Evidence& reference) {
+  double most = 0;
+  for (const double each : reference.vibration) most = std::max(most, each);
+  return most >= kFaintVibration ? Value(kVibrationStep * most) : std::nullopt;
 }
 
 }  // namespace presa::cost

@@ -1,7 +1,8 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
-#include <vector>
+#include <utility>
 
 namespace presa::cost {
 
@@ -25,8 +26,18 @@ class Forecast {
 
  private:
   using Key = std::pair<std::uint64_t, Kind>;
+  static constexpr std::array<Kind, 3> kKinds{Kind::kWatched, Kind::kTimed, Kind::kCounted};
+  /// Of the runs of one kind that are done, and of the watched runs of their settings.
+  struct Sums {
+    int count = 0, pairs = 0;
+    double seconds = 0, paired = 0, watched = 0;  ///< [s]
+  };
   double expected(const Key& key) const;
+  /// Adds the runs of a setting to the sums; sign -1 takes them off.
+  void sumUp(std::uint64_t setting, int sign);
+  Sums& sumsOf(Kind kind) { return sums_[static_cast<std::size_t>(kind)]; }
   int workers_;
+  std::array<Sums, kKinds.size()> sums_{};  // by Kind
   std::map<Key, int> left_;
   std::map<Key, double> took_;
 };

@@ -12,6 +12,8 @@
 namespace presa::cost {
 namespace {
 
+double squareOf(double x, double y, double z) { return x * x + y * y + z * z; }
+
 double distance(const double (&a)[3], const double (&b)[3]) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
@@ -22,21 +24,23 @@ Value difference(const Value& a, const Value& b, double unit = 1) {
 Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
 
 /// RMS difference of the forces that the devices hold, at every tick of the reference, of the worst finger. A setting
-/// with a slow rate holds old forces.
+/// with a slow rate holds old forces. A study asks this of each tick of its reference for each setting: no square root,
+/// no conversion.
 Value held(const Evidence& s, const Evidence& r, bool in_steps) {
   const Trace &a = s.trace, &b = r.trace;
   if (a.fingers != b.fingers || a.held_from_ns.empty()) return std::nullopt;
+  const std::int64_t from = std::llround(1e9 * s.compared_from), to = std::llround(1e9 * s.compared_to);
   std::vector<Sum> sums(a.fingers);
   for (std::size_t j = 0, i = 0; j < b.held_from_ns.size(); ++j) {
     const std::int64_t now = b.held_from_ns[j];
     while (i + 1 < a.held_from_ns.size() && a.held_from_ns[i + 1] <= now) ++i;
-    const double time = static_cast<double>(now) * 1e-9;
-    if (time < s.compared_from || time >= s.compared_to) continue;
+    if (now < from || now >= to) continue;
     for (std::size_t f = 0; f < sums.size(); ++f) {
-      const auto &x = a.held[i * sums.size() + f], &y = b.held[j * sums.size() + f];
-      const double difference = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = std::hypot(y[0], y[1], y[2]);
+      const float *x = a.held[i * sums.size() + f].data(), *y = b.held[j * sums.size() + f].data();
+      const double difference = squareOf(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = squareOf(y[0], y[1], y[2]);
       if (difference == 0 && force == 0) continue;  // no contact in either run
-      sums[f].add(in_steps ? difference / (kForceStep * std::max(force, kMinForce)) : difference);
+      sums[f].addSquare(in_steps ? difference / (kForceStep * kForceStep * std::max(force, kMinForce * kMinForce))
+                                 : difference);
     }
   }
   Value worst;
@@ -169,7 +173,8 @@ const std::vector<Metric>& ownMetrics() {
        "tangential over normal force, against the reference's, while the reference slips and both touch; worst finger",
        frictionError, false, [](const Evidence&) -> Value { return kFrictionStep; }},
       {"texture", "Texture, error of its vibration", "N",
-       "the held force from 40 to 400 Hz: its RMS, less the reference's; worst finger", textureError, false, none},
+       "the held force from 40 to 400 Hz: its RMS, less the reference's; worst finger", textureError, false,
+       textureNoticeable},
       {"proxy", "Proxy, RMS error", "mm", "distance of the proxy from the reference's, while both touch; worst finger",
        [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, proxyError, &Sum::rms); }, false,
        apertureNoticeable},

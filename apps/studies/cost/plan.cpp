@@ -11,6 +11,7 @@
 #include "apps/studies/cost/identity.h"
 #include "apps/studies/cost/metrics.h"
 #include "apps/studies/cost/reference_levels.h"
+#include "apps/studies/cost/trace.h"
 #include "framework/input/folders.h"
 
 namespace presa::cost {
@@ -108,6 +109,27 @@ void planReference(Study& study, const Loaded& base, bool quick, Diagnostics& di
     checkedScene(study.inputs, setsOfLevel(study, level, noLimits(study)), study.folder, diagnostics);
 }
 
+/// Bytes of the traces of all runs, which are kept until the study ends.
+double diskBytes(const Study& study, const Loaded& base, const std::optional<Shard>& shard) {
+  const Scene& scene = base.world->scene;
+  const auto fingers = static_cast<double>(scene.devices.size());
+  const auto free =
+      static_cast<double>(std::ranges::count_if(scene.bodies, [](const Body& body) { return !body.fixed; }));
+  const auto bytesAt = [&](double haptic_rate) {
+    const double instants =
+        1000 * (sizeof(std::int64_t) + 1 + fingers * sizeof(FingerSample) + free * sizeof(BodySample));
+    return base.options.duration * (instants + haptic_rate * (sizeof(std::int64_t) + fingers * 3 * sizeof(float)));
+  };
+  double bytes = static_cast<double>(study.settings.size()) * bytesAt(scene.rates.haptic);
+  for (const std::vector<std::string>& level : study.reference) {
+    double rate = scene.rates.haptic;
+    for (const std::string& set : level)
+      if (set.starts_with("rates/haptic=")) rate = std::stod(set.substr(set.find('=') + 1));
+    bytes += bytesAt(rate);
+  }
+  return shard ? bytes / shard->count : bytes;
+}
+
 /// True for a single free body without any other body or finger to touch: its motion is known analytically.
 bool isAlone(const Loaded& base) {
   const auto& bodies = base.world->scene.bodies;
@@ -137,12 +159,14 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   }
   if (request.duration > 0) study.duration = request.duration;
   if (request.seed > 0) study.seed = request.seed;
-  if (request.quick) study.repeats = 2;
+  if (request.quick) study.repeats = std::min(study.repeats, 2);
   if (!request.metrics.empty()) study.metrics = request.metrics;
   checkMetrics(study.metrics, diagnostics);
 
   refuseConditions(study.inputs.sets, {study.file.empty() ? "--set" : study.file, 0, 0}, diagnostics);
-  const Loaded base = loadWorld(study.inputs, {}, diagnostics);
+  RunOptions options;
+  options.duration = study.duration;
+  const Loaded base = loadWorld(study.inputs, options, diagnostics);
   if (!base.world) return study;
   const Scene& scene = base.world->scene;
   if (study.name.empty()) study.name = scene.name;
@@ -187,6 +211,7 @@ Study planStudy(const Request& request, Diagnostics& diagnostics) {
   }
   for (Factor& factor : study.factors) factor.finer = directionOf(factor.name, scene);
   planReference(study, base, request.quick, diagnostics);
+  study.disk_bytes = diskBytes(study, base, request.shard);
   nameSettings(study);
   if (study.sentences.empty()) study.sentences = defaultSentences(study);
   return study;

@@ -107,7 +107,7 @@ class Merge {
     if (diagnostics_.hasErrors()) return merged;
     merged.instructions = first.instructions;
     if (!request_.mixed) merged.machine = first.machine;
-    checkFolder(merged.study.folder, diagnostics_);
+    checkFolder(merged.study, diagnostics_);
     if (!diagnostics_.hasErrors()) copyRuns(merged.study.folder + kRuns);
     return merged;
   }

@@ -61,7 +61,8 @@ struct Study {
   std::string file;    ///< the study file; empty: a sweep of a scene
   std::string folder;  ///< folder for results, absolute path
   Inputs inputs;
-  double duration = 0;  ///< simulated [s]; 0: to the end of the script
+  double duration = 0;    ///< simulated [s]; 0: to the end of the script
+  double disk_bytes = 0;  ///< that its runs will take in the folder, about
   std::uint64_t seed = 1;
   int repeats = 5;  ///< timed runs of each setting
   Window compared{"", "release"};

@@ -42,7 +42,7 @@ int submit(const SubmitArguments& a) {
   const Study study = planStudy(a.study->request, diagnostics);
   if (!a.study->apply.empty()) checkApply(a.study->apply, study, diagnostics);
   cluster::checkCluster(kCommand, a.cluster, diagnostics);
-  if (!study.folder.empty() && !diagnostics.hasErrors()) checkFolder(study.folder, diagnostics);
+  if (!study.folder.empty() && !diagnostics.hasErrors()) checkFolder(study, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.hasErrors()) return kExitBadInput;
 

@@ -39,7 +39,7 @@ struct Trace {
   std::vector<std::array<float, 3>> held;  ///< `fingers` entries per tick, W [N]
 
   /// Version of the file format; part of the hash that decides whether a stored run is reused.
-  static constexpr const char* kFormat = "PRCOST04";
+  static constexpr const char* kFormat = "PRCOST05";
   void save(const std::string& file) const;    ///< throws when the file cannot be written
   static Trace load(const std::string& file);  ///< throws std::runtime_error
 };
@@ -57,6 +57,7 @@ struct Evidence {
       energy_drift;                      ///< largest change of the energy, of scenes without fingers [J]
   std::optional<double> force_step;      ///< force step at dynamics boundaries, RMS [N]
   std::optional<double> hum;             ///< force amplitude at the dynamics rate [N]
+  std::vector<double> vibration;         ///< by finger: RMS of the held force from 40 to 400 Hz [N]; empty: unknown
   std::optional<double> penetration,     ///< overlap of boxes, mean over the steady window [m]
       penetration_max;                   ///< deepest overlap of boxes [m]
   std::optional<double> rest_energy,     ///< kinetic, of all free bodies, mean over the steady window [J]

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "apps/studies/cost/felt_metrics.h"
 #include "apps/studies/cost/joint_watch.h"
 #include "apps/studies/cost/measure.h"
 #include "apps/studies/cost/rest_watch.h"
@@ -168,7 +169,9 @@ Evidence watch(const StudySpec& spec, const Study& study) {
   Watcher watcher(run, study);
   run.observe([&](const HapticSample& sample) { watcher.observe(sample); });
   run.run();
-  return watcher.finish();
+  Evidence evidence = watcher.finish();
+  evidence.vibration = vibrationOf(evidence);
+  return evidence;
 }
 
 Evidence analyticAnswer(const StudySpec& spec) {

@@ -57,6 +57,7 @@ Evidence held(double rate, const Force& force) {
     e.trace.held_from_ns.push_back(std::llround(i / rate * 1e9));
     e.trace.held.push_back({0, static_cast<float>(force(i / rate)), 0});
   }
+  e.vibration = vibrationOf(e);
   return e;
 }
 
@@ -72,6 +73,16 @@ TEST(FeltMetrics, TextureIsTheBandFrom40To400Hertz) {
     const double gain = low / std::hypot(1, low) / std::hypot(1, high);
     EXPECT_NEAR(*textureError(wave, still), gain * kAmplitude / std::numbers::sqrt2, 0.001 * kAmplitude) << frequency;
   }
+}
+
+// A fifth of the vibration; of one too faint no share is known.
+TEST(FeltMetrics, TextureIsFeltToAFifth) {
+  const auto wave = [](double amplitude) {
+    return held(20'000, [=](double time) { return 2 + amplitude * std::sin(2 * kPi * 100 * time); });
+  };
+  const Evidence still = held(20'000, [](double) { return 2.0; });
+  EXPECT_NEAR(*textureNoticeable(wave(0.3)), 0.2 * *textureError(wave(0.3), still), 1e-6);
+  EXPECT_FALSE(textureNoticeable(wave(0.01)));
 }
 
 // A force that is held for 4 ms is the same texture, whether one tick of 250 Hz or four of 1 kHz hold it.

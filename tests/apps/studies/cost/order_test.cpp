@@ -42,7 +42,7 @@ Result run(const std::string& name, const std::string& study_xml) {
   Diagnostics diagnostics;
   const Study planned = planStudy({.input = write(name + ".xml", study_xml), .out = scratch(name)}, diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
-  checkFolder(planned.folder, diagnostics);
+  checkFolder(planned, diagnostics);
   return runStudy(planned, {.workers = 2});
 }
 

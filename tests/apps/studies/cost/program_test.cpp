@@ -54,6 +54,31 @@ TEST(Cost, RefusesBadInputBeforeAnyWork) {
   EXPECT_NE(unwritable.err.find("error[E803]"), std::string::npos) << unwritable.err;
 }
 
+// Room for all runs is asked for before the first.
+TEST(Cost, RefusesAStudyThatTheDiskHasNoRoomFor) {
+  const std::string out = scratch("large");
+  const auto outcome = presa("cost " + kCube + " --for 1e9 --knob dynamics_rate=100,200 --out " + out);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("error[E803]: cannot write the study into the folder '" + out + "': its runs need about "),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(out + "/runs"));
+}
+
+// A file size limit stops writes as a full disk does. A run that was not written is no result of its setting.
+TEST(Cost, StopsOnAFullDiskAndGoesOn) {
+  const std::string out = scratch("full"),
+                    command = std::string(PRESA_BINARY_DIR) + "/bin/presa " + kSmall + "--out " + out;
+  const auto stopped = shell("bash -c \"trap '' XFSZ; ulimit -f 1400; exec " + command + "\"");
+  EXPECT_EQ(stopped.status, 1) << stopped.err;
+  EXPECT_NE(stopped.err.find("File too large; finished runs are kept"), std::string::npos) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(out + "/cost.json"));
+  const auto resumed = shell(command + " --resume");
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  for (const auto& setting : readJson(out + "/cost.json").at("settings"))
+    EXPECT_TRUE(setting.at("failure").is_null()) << setting;
+}
+
 // Errors in a study file have line and column, as in a scene.
 TEST(Cost, RefusesABadStudyFile) {
   const std::string file = scratch("study.xml");

@@ -48,6 +48,18 @@ TEST(ShippedScenes, HaveAQuickStudy) {
   }
 }
 
+// A quick study repeats no run more often than the whole one.
+TEST(ShippedStudies, AreNoLongerWhenQuick) {
+  Request request;
+  request.input = test::source("experiments/accuracy_cost/pile_125.xml");
+  request.out = test::scratch("planned");
+  Diagnostics diagnostics;
+  const int repeats = planStudy(request, diagnostics).repeats;
+  request.quick = true;
+  EXPECT_LE(planStudy(request, diagnostics).repeats, repeats);
+  EXPECT_FALSE(diagnostics.hasErrors()) << diagnostics.text();
+}
+
 // Each grid has values of its own; a sentence may compare those of any.
 TEST(StudyFile, ASentenceMayNameAKnobOfSeveralGrids) {
   const std::string file = test::scratch("grids.xml");

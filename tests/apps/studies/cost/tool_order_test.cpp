@@ -52,7 +52,7 @@ Study planned(const std::string& scene, const std::string& knob, const std::stri
       diagnostics);
   if (diagnostics.hasErrors()) throw InputError(diagnostics);
   study.repeats = 0;  // no costs
-  checkFolder(study.folder, diagnostics);
+  checkFolder(study, diagnostics);
   return study;
 }
 
