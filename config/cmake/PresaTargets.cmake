@@ -144,9 +144,10 @@ endfunction()
 
 # presa_test(NAME REAL_TIME LIBRARIES … LAUNCHER … ALONE …): one GoogleTest program from every .cpp of the calling folder, run by the launcher;
 # REAL_TIME: its threads keep periods of a millisecond, so that no other test may run beside it; TOGETHER: suites whose tests run in one
-# process, because what they share takes long to make
+# process, because what they share takes long to make; APART: suites that need a process of their own, because they choose the plug-ins'
+# folder, which a process reads once
 function(presa_test name)
-  cmake_parse_arguments(ARG "REAL_TIME" "" "LIBRARIES;LAUNCHER;ALONE;TOGETHER" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME" "" "LIBRARIES;LAUNCHER;ALONE;TOGETHER;APART" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     return()
@@ -167,6 +168,9 @@ function(presa_test name)
     set_target_properties(test_${name} PROPERTIES CROSSCOMPILING_EMULATOR "${ARG_LAUNCHER}")
   endif()
   set(properties TIMEOUT ${timeout} LABELS ${name} RUN_SERIAL ${ARG_REAL_TIME} ENVIRONMENT PRESA_WATCH_TRANSPORT=1)
+  if(PRESA_SANITIZE)
+    list(APPEND ARG_TOGETHER ${ARG_APART}) # in a plain build each test has a process
+  endif()
   foreach(suite IN LISTS ARG_TOGETHER)
     add_test(NAME ${suite} COMMAND test_${name} --gtest_filter=${suite}.*)
     set_tests_properties(${suite} PROPERTIES ${properties} COST 100) # begins early

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "framework/geometry/surface_distance.h"
 #include "framework/geometry/tri_mesh.h"
 
 /// Convex meshes, and meshes as unions of convex ones. Thread: before a run.
@@ -20,8 +21,9 @@ std::optional<TriMesh> convexHull(const std::vector<Vec3>& points, std::size_t m
 
 /// Convex pieces whose union is a closed mesh, but for hollows of up to `max_error` [m] that a piece may bridge, unless
 /// `max_pieces` are too few. The solid is cut by planes of its own faces, so a polyhedron comes apart exactly and
-/// neighbours share their cut to the bit: no cracks. Empty for a mesh that encloses no volume. Deterministic.
-std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, double max_error);
+/// neighbours share their cut to the bit: no cracks. Empty for a mesh that encloses no volume, and where `go_on` stopped it.
+/// Deterministic.
+std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, double max_error, const GoOn& go_on = {});
 
 /// Hausdorff distance between the solid in a closed mesh and the union of convex pieces [m], sampled at vertices, edge
 /// midpoints and triangle centres: a lower bound.

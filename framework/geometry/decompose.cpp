@@ -294,7 +294,7 @@ TriMesh pieceOf(const Cell& cell) {
 
 }  // namespace
 
-std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, double max_error) {
+std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, double max_error, const GoOn& go_on) {
   const Cutter cutter(mesh, max_error);
   std::vector<Cell> cells, done;
   if (std::optional<Cell> whole = cutter.whole()) cells.push_back(std::move(*whole));
@@ -306,6 +306,7 @@ std::vector<TriMesh> decompose(const TriMesh& mesh, std::size_t max_pieces, doub
     Cell cell = std::move(*deepest);
     cells.erase(deepest);
     const std::size_t pieces = cells.size() + done.size() + 1;
+    if (go_on && !go_on(static_cast<double>(pieces) / static_cast<double>(std::max(max_pieces, pieces)))) return {};
     std::vector<Cell> parts;
     if (!cutter.isFinished(cell) && pieces < max_pieces) {
       const double its_pieces = static_cast<double>(max_pieces - done.size()) * cell.area / area;

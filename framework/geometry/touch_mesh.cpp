@@ -131,7 +131,8 @@ TouchMesh touchMesh(const TriMesh& mesh, double max_error, const GoOn& go_on) {
 TouchPieces touchPieces(const TriMesh& mesh, std::size_t max_pieces, double max_error, const GoOn& go_on) {
   TriMesh coarse = decimateMesh(mesh, kCutTriangles);
   if (!isAsWhole(coarse, checkMesh(mesh))) coarse = mesh;
-  TouchPieces made{decompose(coarse, max_pieces, max_error), {}, {}};
+  TouchPieces made{
+      decompose(coarse, max_pieces, max_error, [&](double share) { return !go_on || go_on(0.5 * share); }), {}, {}};
   for (TriMesh& piece : made.pieces) piece = asInFile(piece);
   if (go_on && !go_on(0.5)) return {};
   if (!measure(mesh, made, go_on) || (go_on && !go_on(1))) return {};

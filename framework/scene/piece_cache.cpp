@@ -12,6 +12,7 @@
 
 #include "framework/core/math/fnv.h"
 #include "framework/geometry/convex.h"
+#include "framework/geometry/long_work.h"
 #include "framework/input/cache.h"
 #include "framework/input/input.h"
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKind = 0x3165636569507250;  // "PrPiece1": also the version of decompose()
 constexpr std::chrono::milliseconds kLong{500};      // a cut that takes longer is kept for the next load
+constexpr double kCutting = 0.9;                     // share of the time; the rest is for its error
 constexpr std::uint64_t kMostPieces = 256, kMostCorners = 100000, kMostBytes = 1U << 28U;
 
 void add(Fnv1a& hash, double value) { hash.addWord(std::bit_cast<std::uint64_t>(value)); }
@@ -140,9 +142,16 @@ ConvexPieces cutIntoPieces(const TriMesh& mesh, const Decomposition& wanted) {
   if (std::optional<ConvexPieces> known = readPieces(file)) return std::move(*known);
   const auto start = std::chrono::steady_clock::now();
   ConvexPieces cut;
-  const std::vector<TriMesh> pieces = decompose(mesh, wanted.max_pieces, wanted.max_error);
+  const GoOn told =
+      toldToListener("convex pieces of a mesh of " + std::to_string(mesh.triangles.size()) + " triangles");
+  bool stopped = false;
+  const GoOn go_on = [&](double share) { return !(stopped = stopped || (told && !told(share))); };
+  const std::vector<TriMesh> pieces =
+      decompose(mesh, wanted.max_pieces, wanted.max_error, [&](double share) { return go_on(kCutting * share); });
+  if (stopped) throw WorkStopped();
   cut.error = hausdorffDistance(mesh, pieces);
   for (const TriMesh& piece : pieces) cut.pieces.push_back(std::make_shared<const TriMesh>(piece));
+  if (!go_on(1)) throw WorkStopped();
   if (std::chrono::steady_clock::now() - start > kLong) keepPieces(file, cut);
   return cut;
 }

@@ -16,7 +16,8 @@ std::optional<ConvexPieces> readPieces(const std::string& file);
 /// Replaces the file at once, so that a reader never sees a part of it.
 void keepPieces(const std::string& file, const ConvexPieces& pieces);
 
-/// The convex pieces of a closed mesh, from the cache or cut anew; kept there if cutting took long.
+/// The convex pieces of a closed mesh, from the cache or cut anew; kept there if cutting took long. Tells the listener of
+/// long work, which may stop it: then it throws WorkStopped.
 ConvexPieces cutIntoPieces(const TriMesh& mesh, const Decomposition& wanted);
 
 }  // namespace presa

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <numbers>
 #include <random>
 
+#include "apps/common/scratch_folder.h"
+#include "framework/geometry/long_work.h"
+#include "framework/scene/piece_cache.h"
 #include "tests/framework/geometry/hollow_meshes.h"
 
 namespace presa {
@@ -94,6 +99,45 @@ TEST(Decompose, OpensACup) {
   EXPECT_EQ(pieces.size(), 25U);
   EXPECT_NEAR(volumeOf(pieces) / massProperties(cup).volume, 1, 1e-6);
   EXPECT_LT(hausdorffDistance(cup, pieces), 1e-7);
+}
+
+TEST(Decompose, TellsHowFarItHasComeAndStops) {
+  const TriMesh cup = test::cup(24, 0.03, 0.033, 0.004, 0.08);
+  std::vector<double> shares;
+  const auto told = [&](std::size_t calls) {
+    return [&shares, calls](double share) {
+      shares.push_back(share);
+      return shares.size() < calls;
+    };
+  };
+  decompose(cup, 64, 0.001, told(1000));
+  EXPECT_GT(shares.size(), 20U);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GE(shares.front(), 0);
+  EXPECT_LE(shares.back(), 1);
+  shares.clear();
+  EXPECT_TRUE(decompose(cup, 64, 0.001, told(5)).empty());
+  EXPECT_EQ(shares.size(), 5U);
+}
+
+// The listener of the thread that loads hears of a cut and may end it.
+TEST(CutIntoPieces, TellsTheListenerWhichMayStopIt) {
+  const ScratchFolder kept;
+  ASSERT_EQ(setenv("XDG_CACHE_HOME", kept.path().c_str(), 1), 0);
+  const TriMesh cup = test::cup(23, 0.03, 0.033, 0.004, 0.08);
+  const Decomposition wanted{.max_pieces = 64, .max_error = 0.001};
+  std::vector<double> shares;
+  std::string what;
+  const LongWorkListener listener([&](const std::string& told, double share) {
+    what = told;
+    shares.push_back(share);
+    return shares.size() != 5;
+  });
+  EXPECT_THROW(cutIntoPieces(cup, wanted), WorkStopped);
+  EXPECT_EQ(what, "convex pieces of a mesh of " + std::to_string(cup.triangles.size()) + " triangles");
+  EXPECT_EQ(cutIntoPieces(cup, wanted).pieces.size(), 24U);
+  EXPECT_EQ(shares.back(), 1);
+  unsetenv("XDG_CACHE_HOME");
 }
 
 // The trap: one piece closes the mouth, and the distance says so. The middle of the mouth is a radius of the inner
