@@ -49,6 +49,38 @@ TEST(LightCursor, ALeaningHandleFeelsTheTorqueOfTheFlatBlock) {
   EXPECT_LT(tool.state().X_WT.q.angularDistance(Quat::Identity()), 1e-4);
 }
 
+// A thin rod held at its end is a line that several bodies hold at once. Statics of height w and tilt phi over two balls, each
+// a spring: F_i = -K (w + x_i phi), F_1 + F_2 = k (w + depth), F_1 x_1 + F_2 x_2 = c (phi + lean).
+TEST(LightCursor, ARodOnTwoBallsFeelsWhereEachOfThemIs) {
+  const auto ball = [](const std::string& name, double x) {
+    return "<body name=\"" + name + "\" fixed=\"true\" material=\"smooth\" pos=\"" + std::to_string(x) +
+           " 0 -0.01\"><haptic><sphere radius=\"0.01\"/></haptic></body>";
+  };
+  constexpr double kRod = 0.001, kDepth = 0.002, kTurn = 2, kNear = 0.05, kFar = 0.1;
+  OneTool tool(cursorWorld(
+      R"(<tool pos="0 0 0.08" stiffness="1000" turn_stiffness="2"><capsule radius="0.001" length="0.158"/></tool>)",
+      ball("near", kNear) + ball("far", kFar)));
+  const Quat level = turned({0, 1, 0}, 90);  // the rod points along x
+  tool.tick({{0, 0, 0.02}, level});
+  for (const double degrees : {3.5, 4.3, 5.0}) {
+    const double lean = degrees * EIGEN_PI / 180;
+    Eigen::Matrix2d springs{{kHandle + 2 * kPoint, kPoint * (kNear + kFar)},
+                            {kPoint * (kNear + kFar), kTurn + kPoint * (kNear * kNear + kFar * kFar)}};
+    const Eigen::Vector2d rod = springs.inverse() * Eigen::Vector2d(-kHandle * kDepth, -kTurn * lean);
+    const auto force = [&](double x) { return -kPoint * (rod[0] + x * rod[1]); };
+    const FingerContact& contact = tool.rest({{0, 0, kRod - kDepth}, turned({0, 1, 0}, degrees) * level}, 500);
+    ASSERT_EQ(tool.all().contactsOf(contact).size(), 2U);
+    for (const ToolContact& one : tool.all().contactsOf(contact)) {
+      const double x = one.body == 0 ? kNear : kFar;
+      EXPECT_NEAR(one.f_H_W.z(), force(x), 0.002 * kHandle * kDepth) << degrees;
+      EXPECT_NEAR(one.p_WP.x(), x, 1e-5);
+    }
+    EXPECT_NEAR(contact.f_H_W.z(), force(kNear) + force(kFar), 0.002 * kHandle * kDepth);
+    EXPECT_NEAR(contact.t_H_W.y(), -kNear * force(kNear) - kFar * force(kFar), 0.002 * kTurn * lean);
+    EXPECT_NEAR(contact.t_H_W.x(), 0, 1e-6) << "about the rod's own axis";
+  }
+}
+
 TEST(LightCursor, StaysWhereItIs) {
   for (const char* material : {"smooth", "rough"}) {
     OneTool tool(cursorWorld(kBlock, slab(material)));
