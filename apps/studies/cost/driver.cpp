@@ -59,6 +59,14 @@ std::string unlessWritten(const std::function<void()>& write) {
   }
 }
 
+double bytesIn(const std::string& folder) {
+  std::error_code none;
+  double bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    bytes += static_cast<double>(entry.file_size(none));
+  return bytes;
+}
+
 Forecast::Run runOf(const Task& task) {
   using Kind = Forecast::Kind;
   return {task.repeat == kWatched   ? Kind::kWatched
@@ -445,7 +453,8 @@ void checkFolder(const Study& study, Diagnostics& diagnostics) {
   if (error || !fs::is_directory(folder) || ::access(folder.c_str(), W_OK | X_OK) != 0) {
     trouble = error ? error.message() : "no right to";
   } else {
-    const double free = static_cast<double>(fs::space(folder, error).available);
+    // runs of an earlier study make room or are kept
+    const double free = static_cast<double>(fs::space(folder, error).available) + bytesIn(folder + "/runs");
     if (error || study.disk_bytes <= free) return;
     trouble = "its runs need about " + std::to_string(std::llround(1e-6 * study.disk_bytes)) + " MB, found " +
               std::to_string(std::llround(1e-6 * free)) + " MB that are free";
