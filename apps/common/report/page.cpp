@@ -1,6 +1,10 @@
 #include "apps/common/report/page.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "apps/common/report/svg_plot.h"
+#include "apps/common/report/svg_scale.h"
 
 namespace presa::page {
 namespace {
@@ -171,14 +175,30 @@ const char* style() { return kStyle; }
 
 std::string tail() { return std::string("</main>\n<script>") + kScript + "</script>\n</body></html>\n"; }
 
+namespace {
+
+/// The title of a picture `width` wide; one that is too long for it is squeezed.
+std::string titleAbove(const std::string& title, double width) {
+  constexpr double kLeft = 62, kLetter = 7.4;  // of the style's font, or one as wide
+  const auto letters = std::count_if(title.begin(), title.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  const double room = width - kLeft - kLetter;
+  const bool fits = static_cast<double>(letters) * kLetter <= room;
+  return "<text class=\"panel-title\" x=\"62\" y=\"18\"" +
+         (fits ? "" : " textLength=\"" + svg::px(room) + "\" lengthAdjust=\"spacingAndGlyphs\"") + ">" +
+         svg::escape(title) + "</text>";
+}
+
+}  // namespace
+
 std::string picture(const std::string& figure_html, const std::string& title) {
   const std::size_t begin = figure_html.find("<svg "), inside = figure_html.find('>', begin);
   const std::size_t end = figure_html.find("</svg>");
-  if (begin == std::string::npos || end == std::string::npos) return {};
+  const std::size_t size = figure_html.find("viewBox=\"0 0 ", begin);
+  if (begin == std::string::npos || end == std::string::npos || size >= inside) return {};
+  const double width = std::strtod(figure_html.c_str() + size + 13, nullptr);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + figure_html.substr(begin + 5, inside - begin - 4) +
-         "\n<style>" + kStyle +
-         "svg { background: var(--bg); }</style>\n<text class=\"panel-title\" x=\"62\" y=\"18\">" + svg::escape(title) +
-         "</text>" + figure_html.substr(inside + 1, end - inside - 1) + "</svg>\n";
+         "\n<style>" + kStyle + "svg { background: var(--bg); }</style>\n" + titleAbove(title, width) +
+         figure_html.substr(inside + 1, end - inside - 1) + "</svg>\n";
 }
 
 }  // namespace presa::page

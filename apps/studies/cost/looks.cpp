@@ -75,8 +75,20 @@ std::string wordOf(const std::string& knob, const std::string& value) {
   return value == "ode" ? "ODE" : value == "mujoco" ? "MuJoCo" : value == "bullet" ? "Bullet" : value;
 }
 
+/// Whether the value of this knob might be one of another.
+bool isAmbiguous(const Result& result, const Outcome& outcome, std::size_t knob) {
+  for (std::size_t k = 0; k < outcome.setting.choices.size(); ++k) {
+    const auto values = valuesOf(result, k);
+    if (k != knob && values.size() > 1 && std::ranges::count(values, outcome.setting.choices[knob].second) > 0)
+      return true;
+  }
+  return false;
+}
+
 std::string tagOf(const Result& result, const Outcome& outcome, const std::vector<std::size_t>& knobs) {
   if (knobs.empty()) return &outcome == &result.outcomes.front() ? "default" : outcome.setting.name;
+  if (knobs.size() == 1 && isAmbiguous(result, outcome, knobs.front()))
+    return outcome.setting.choices[knobs.front()].first + " " + outcome.setting.choices[knobs.front()].second;
   std::string tag;
   for (const std::size_t k : knobs) {
     const auto& [knob, value] = outcome.setting.choices[k];

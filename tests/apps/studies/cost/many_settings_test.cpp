@@ -1,6 +1,7 @@
 // A sweep of ten thousand settings: its page stays small enough to open.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -55,6 +56,19 @@ TEST(ManySettings, MakeAPageThatOpens) {
   const std::string page = reportHtml(sweep());
   if (const char* file = std::getenv("PRESA_PAGE")) std::ofstream(file) << page;
   EXPECT_LT(page.size(), 8'000'000u);
+}
+
+// A label names the knob of a value that another knob has, too.
+TEST(Looks, LabelsAreNotAmbiguous) {
+  Result result;
+  for (const auto& [voxel, spacing, law] :
+       {std::array{"1", "1", "cone"}, {"2", "1", "cone"}, {"1", "2", "cone"}, {"1", "1", "dahl"}, {"2", "2", "cone"}}) {
+    Outcome& outcome = result.outcomes.emplace_back();
+    outcome.setting.choices = {{"voxel", voxel}, {"spacing", spacing}, {"law", law}};
+  }
+  const Looks looks = looksOf(result);
+  const std::vector<std::string> expected{"default", "voxel 2", "spacing 2", "dahl", "2, 2"};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(looks.of[i].tag, expected[i]);
 }
 
 /// Relative luminance of a colour variable of the page, as WCAG defines it; the first of them is of the light theme.
