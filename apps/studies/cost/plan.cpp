@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -124,7 +125,7 @@ double diskBytes(const Study& study, const Loaded& base, const std::optional<Sha
   for (const std::vector<std::string>& level : study.reference) {
     double rate = scene.rates.haptic;
     for (const std::string& set : level)
-      if (set.starts_with("rates/haptic=")) rate = std::stod(set.substr(set.find('=') + 1));
+      if (set.starts_with("rates/haptic=")) rate = std::strtod(set.c_str() + set.find('=') + 1, nullptr);
     bytes += bytesAt(rate);
   }
   return shard ? bytes / shard->count : bytes;
