@@ -1,5 +1,6 @@
 #include "apps/studies/cost/driver.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "apps/common/terminal/job_progress.h"
 #include "apps/common/terminal/text.h"
 #include "apps/studies/cost/condition_factor.h"
+#include "apps/studies/cost/errors.h"
 #include "apps/studies/cost/factors.h"
 #include "apps/studies/cost/forecast.h"
 #include "apps/studies/cost/identity.h"
@@ -92,7 +94,7 @@ class Driver {
     progress_->finish();
     collect();
     result_.interrupted = stopped_;
-    if (!stopped_) store_->dropTraces();
+    if (!stopped_) store_->dropTraces(workersOf(options_));
     return std::move(result_);
   }
 
@@ -134,6 +136,7 @@ class Driver {
   std::size_t lost() const;
   /// With that many levels of the reference. False: a finer one is needed, and there is one.
   bool compare(std::size_t levels);
+  bool takeErrors(const std::vector<const Metric*>& metrics, const Evidence& fine, bool finer_exists);
   bool allResolved() const;
   void collect();
 
@@ -216,7 +219,7 @@ void Driver::ended(const Task& task, double seconds, const std::string& what) {
   forecast_.done(runOf(task), seconds);
   if (const std::int64_t now = monotonicNs(); now >= forecast_due_ns_) {
     if (const double left = forecast_.left(); left >= 0) progress_->expect(left);
-    forecast_due_ns_ = now + 200'000'000;
+    forecast_due_ns_ = now + 1'000'000'000;
   }
   progress_->done(what);
 }
@@ -250,6 +253,7 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     else
       ended(task, there && task.repeat < 0 ? store_->evidence(task.hash, false).seconds : -1, what);
   }
+  ::malloc_trim(0);  // a fork copies the page tables of all memory, free memory too
   JobOptions jobs;
   jobs.workers = workers;
   std::string unwritten;
@@ -267,6 +271,7 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     if (!keeps_killed_ && job.killed) return;
     unwritten += unlessWritten([&] { store_->save(missing[i].hash, evidence); });
   };
+  const std::int64_t runs_begin = monotonicNs();
   const auto results = runJobs(
       missing.size(),
       [&](std::size_t i) {
@@ -285,6 +290,8 @@ void Driver::work(const std::vector<Task>& tasks, int workers, const std::string
     progress_->finish();
     throw std::runtime_error(unwritten + "; finished runs are kept: make room, then the same command with --resume");
   }
+  result_.runs_seconds += 1e-9 * static_cast<double>(monotonicNs() - runs_begin);
+  result_.runs += missing.size();
   for (const JobResult& job : results) stopped_ = stopped_ || job.outcome == JobResult::Outcome::kNotRun;
 }
 
@@ -336,7 +343,9 @@ void Driver::refineReference() {
   for (std::size_t levels = kFirstLevels; !stopped_; ++levels) {
     settleLevels(levels);
     if (stopped_) return;
-    if (!compare(levels)) continue;
+    const bool enough = compare(levels);
+    stopped_ = stopped_ || terminal::JobProgress::interrupted();
+    if (!enough) continue;
     result_.orders = ordersOf(result_, [&](std::uint64_t scene) { return store_->evidence(scene, true); });
     return;
   }
@@ -371,6 +380,7 @@ void Driver::timeAll(int repeat) {
 
 // One error that a finer reference is needed for is enough.
 bool Driver::compare(std::size_t levels) {
+  keepFreeMemory();
   Result::Reference& reference = result_.reference;
   using Kind = Study::Reference;
   const bool refined = study_.reference_kind == Kind::kRefined;
@@ -388,31 +398,46 @@ bool Driver::compare(std::size_t levels) {
   result_.outcomes.clear();
   result_.metrics = study_.metrics;
   for (const Setting& setting : study_.settings) result_.outcomes.push_back({setting, setting.impossible, {}, {}});
+  std::vector<const Metric*> metrics;
   for (const std::string& name : study_.metrics) {
-    const Metric& metric = *findMetric(name);
+    const Metric& metric = *metrics.emplace_back(findMetric(name));
     const auto residual = metric.error(coarser, fine);
     if (residual && !metric.absolute) reference.residual[name] = *residual;
     if (const auto noticeable = metric.noticeable(fine)) reference.noticeable[name] = *noticeable;
   }
-  for (Outcome& outcome : result_.outcomes) {
-    if (!outcome.failure.empty()) continue;
-    const Evidence evidence = store_->evidence(outcome.setting.scene_hash, true);
-    outcome.failure = evidence.failure;
-    if (!outcome.failure.empty()) continue;
-    for (const std::string& name : result_.metrics) {
-      if (const auto error = findMetric(name)->error(evidence, fine)) outcome.error[name] = *error;
-      const bool too_small =
-          outcome.error.contains(name) && outcome.error[name] > kRounding && !result_.resolved(outcome, name);
-      if (too_small && levels < study_.reference.size()) return false;
-    }
-  }
+  const bool finer_exists = levels < study_.reference.size();
+  if (!takeErrors(metrics, fine, finer_exists)) return false;
   std::erase_if(result_.metrics, [&](const std::string& name) {
     return std::none_of(result_.outcomes.begin(), result_.outcomes.end(), [&](const Outcome& outcome) {
       return outcome.error.contains(name) && outcome.error.at(name) > kRounding;
     });
   });
   reference.fine_enough = allResolved();
-  return reference.fine_enough || levels >= study_.reference.size();
+  return reference.fine_enough || !finer_exists;
+}
+
+/// False: interrupted, or one error is too small for the reference and `finer_exists`.
+bool Driver::takeErrors(const std::vector<const Metric*>& metrics, const Evidence& fine, bool finer_exists) {
+  std::vector<Outcome*> outcomes;
+  std::vector<std::uint64_t> scenes;
+  for (Outcome& outcome : result_.outcomes) {
+    if (!outcome.failure.empty()) continue;
+    outcomes.push_back(&outcome);
+    scenes.push_back(outcome.setting.scene_hash);
+  }
+  return compareRuns(*store_, scenes, metrics, fine, workersOf(options_),
+                     [&](std::size_t run, const Compared& compared) {
+                       Outcome& outcome = *outcomes[run];
+                       outcome.failure = compared.failure;
+                       for (std::size_t m = 0; m < compared.errors.size(); ++m) {
+                         if (!compared.errors[m]) continue;
+                         const double error = *compared.errors[m];
+                         outcome.error[study_.metrics[m]] = error;
+                         if (finer_exists && error > kRounding && !result_.resolved(outcome, study_.metrics[m]))
+                           return false;
+                       }
+                       return true;
+                     });
 }
 
 /// True when the reference resolves every error in the report to a tenth.

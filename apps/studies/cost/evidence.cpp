@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "apps/common/atomic_file.h"
-#include "apps/common/file_text.h"
+#include "framework/input/input.h"
 
 namespace presa::cost {
 namespace {
@@ -16,13 +16,41 @@ void append(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-template <class T>
-void take(const std::string& bytes, std::size_t& at, std::vector<T>& values, std::size_t count) {
-  values.resize(count);
-  if (bytes.size() - at < count * sizeof(T)) throw std::runtime_error("a stored run is cut short");
-  if (count > 0) std::memcpy(values.data(), bytes.data() + at, count * sizeof(T));
-  at += count * sizeof(T);
-}
+/// Reads a stored run, straight into the vectors: it has megabytes.
+class Reader {
+ public:
+  explicit Reader(const std::string& name) : name_(name), file_(opened(name)), left_(file_.size()) {}
+
+  void take(void* to, std::size_t bytes) {
+    if (bytes > left_) throw std::runtime_error("a stored run is cut short: " + name_);
+    left_ -= bytes;
+    for (char* at = static_cast<char*>(to); bytes > 0;) {
+      const std::ptrdiff_t n = input::readSome(file_, at, bytes);
+      if (n <= 0) throw std::runtime_error("a stored run cannot be read: " + name_);
+      at += n;
+      bytes -= static_cast<std::size_t>(n);
+    }
+  }
+  template <class T>
+  void take(std::vector<T>& values, std::size_t count) {
+    if (count > left_ / sizeof(T)) throw std::runtime_error("a stored run is cut short: " + name_);
+    values.resize(count);
+    take(values.data(), count * sizeof(T));
+  }
+
+ private:
+  static input::File opened(const std::string& name) {
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30U;
+    input::Refusal refusal;
+    auto file = input::open(name, kMaxBytes, refusal);
+    if (!file) throw std::runtime_error("a stored run cannot be read: " + name);
+    return std::move(*file);
+  }
+
+  std::string name_;
+  input::File file_;
+  std::uint64_t left_;
+};
 
 void put(nlohmann::json& json, const char* key, const std::optional<double>& value) {
   if (value) json[key] = *value;
@@ -46,21 +74,21 @@ void Trace::save(const std::string& file) const {
 }
 
 Trace Trace::load(const std::string& file) {
-  const std::string bytes = contentsOf(file);
-  const std::size_t mark = std::strlen(kFormat);
-  if (bytes.compare(0, mark, kFormat) != 0) throw std::runtime_error("no stored run: " + file);
-  std::size_t at = mark;
+  Reader reader(file);
+  std::string mark(std::strlen(kFormat), ' ');
+  reader.take(mark.data(), mark.size());
+  if (mark != kFormat) throw std::runtime_error("no stored run: " + file);
   std::vector<std::uint64_t> counts;
-  take(bytes, at, counts, 4);
+  reader.take(counts, 4);
   Trace trace;
   trace.fingers = counts[0];
   trace.bodies = counts[1];
-  take(bytes, at, trace.time_ns, counts[2]);
-  take(bytes, at, trace.stepped, counts[2]);
-  take(bytes, at, trace.finger, counts[0] * counts[2]);
-  take(bytes, at, trace.body, counts[1] * counts[2]);
-  take(bytes, at, trace.held_from_ns, counts[3]);
-  take(bytes, at, trace.held, counts[0] * counts[3]);
+  reader.take(trace.time_ns, counts[2]);
+  reader.take(trace.stepped, counts[2]);
+  reader.take(trace.finger, counts[0] * counts[2]);
+  reader.take(trace.body, counts[1] * counts[2]);
+  reader.take(trace.held_from_ns, counts[3]);
+  reader.take(trace.held, counts[0] * counts[3]);
   return trace;
 }
 

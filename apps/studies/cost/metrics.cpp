@@ -1,6 +1,8 @@
 #include "apps/studies/cost/metrics.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -12,10 +14,10 @@
 namespace presa::cost {
 namespace {
 
-double squareOf(double x, double y, double z) { return x * x + y * y + z * z; }
+Eigen::Vector3d vectorOf(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 double distance(const double (&a)[3], const double (&b)[3]) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  return (Eigen::Vector3d::Map(a) - Eigen::Vector3d::Map(b)).norm();
 }
 
 Value difference(const Value& a, const Value& b, double unit = 1) {
@@ -24,35 +26,39 @@ Value difference(const Value& a, const Value& b, double unit = 1) {
 Value scaled(const Value& a, double unit) { return a ? Value(unit * *a) : std::nullopt; }
 
 /// RMS difference of the forces that the devices hold, at every tick of the reference, of the worst finger. A setting
-/// with a slow rate holds old forces. A study asks this of each tick of its reference for each setting: no square root,
-/// no conversion.
-Value held(const Evidence& s, const Evidence& r, bool in_steps) {
+/// with a slow rate holds old forces. A study asks this of each tick of its reference for each setting: no square root.
+template <bool kInSteps>
+Value held(const Evidence& s, const Evidence& r) {
   const Trace &a = s.trace, &b = r.trace;
   if (a.fingers != b.fingers || a.held_from_ns.empty()) return std::nullopt;
   const std::int64_t from = std::llround(1e9 * s.compared_from), to = std::llround(1e9 * s.compared_to);
-  std::vector<Sum> sums(a.fingers);
-  for (std::size_t j = 0, i = 0; j < b.held_from_ns.size(); ++j) {
-    const std::int64_t now = b.held_from_ns[j];
-    while (i + 1 < a.held_from_ns.size() && a.held_from_ns[i + 1] <= now) ++i;
-    if (now < from || now >= to) continue;
-    for (std::size_t f = 0; f < sums.size(); ++f) {
-      const float *x = a.held[i * sums.size() + f].data(), *y = b.held[j * sums.size() + f].data();
-      const double difference = squareOf(x[0] - y[0], x[1] - y[1], x[2] - y[2]), force = squareOf(y[0], y[1], y[2]);
-      if (difference == 0 && force == 0) continue;  // no contact in either run
-      sums[f].addSquare(in_steps ? difference / (kForceStep * kForceStep * std::max(force, kMinForce * kMinForce))
-                                 : difference);
+  const std::size_t n = a.fingers;
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(b.held_from_ns, from) - b.held_from_ns.begin());
+  std::vector<Sum> sums(n);
+  for (std::size_t f = 0; f < n; ++f) {
+    double squares = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0, j = first; i < a.held_from_ns.size(); ++i) {
+      const bool last = i + 1 == a.held_from_ns.size();
+      const std::int64_t until = last ? to : std::min(to, a.held_from_ns[i + 1]);
+      const Eigen::Vector3d force = vectorOf(a.held[i * n + f]);
+      for (; j < b.held_from_ns.size() && b.held_from_ns[j] < until; ++j) {
+        const Eigen::Vector3d right = vectorOf(b.held[j * n + f]);
+        const double difference = (force - right).squaredNorm(), square = right.squaredNorm();
+        count += difference + square > 0 ? 1 : 0;  // 0: no contact in either run
+        squares +=
+            kInSteps ? difference / (kForceStep * kForceStep * std::max(square, kMinForce * kMinForce)) : difference;
+      }
     }
+    sums[f] = {squares, 0, count};
   }
-  Value worst;
-  for (const Sum& sum : sums) {
-    if (const Value v = sum.rms()) worst = std::max(worst.value_or(0), *v);
-  }
-  return worst;
+  return worstOf(sums, &Sum::rms);
 }
 
 /// RMS over all free bodies and the instants at the end of a dynamics step of the setting; poses between them are
 /// interpolated.
-Value bodies(const Evidence& s, const Evidence& r, double (*error)(const BodySample&, const BodySample&)) {
+template <class Error>
+Value bodies(const Evidence& s, const Evidence& r, const Error& error) {
   Sum sum;
   const std::size_t n = s.trace.bodies;
   if (n != r.trace.bodies) return std::nullopt;
@@ -139,25 +145,39 @@ const std::vector<Metric>& ownMetrics() {
   static const std::vector<Metric> metrics{
       {"force_rms", "Force, RMS error", "N",
        "root of the mean square of |force − reference| of the worst finger, while one of the two touches",
-       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceError, &Sum::rms); }, false,
-       forceNoticeable},
+       [](const Evidence& s, const Evidence& r) {
+         return worstFinger(
+             s, r, [](const auto& a, const auto& b) { return forceError(a, b); }, &Sum::rms);
+       },
+       false, forceNoticeable},
       {"force_peak", "Force, largest error", "N", "largest |force − reference| of any finger",
-       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceError, &Sum::peak); }, false,
-       forceNoticeable},
+       [](const Evidence& s, const Evidence& r) {
+         return worstFinger(
+             s, r, [](const auto& a, const auto& b) { return forceError(a, b); }, &Sum::peak);
+       },
+       false, forceNoticeable},
       {"force_rms_jnd", "Force, RMS error in just-noticeable steps", "steps",
        "as force_rms, each difference in tenths of the reference's force at that moment (of 0.5 N below that)",
-       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceSteps, &Sum::rms); }, false, oneStep},
+       [](const Evidence& s, const Evidence& r) {
+         return worstFinger(
+             s, r, [](const auto& a, const auto& b) { return forceSteps(a, b); }, &Sum::rms);
+       },
+       false, oneStep},
       {"force_peak_jnd", "Force, largest error in just-noticeable steps", "steps",
        "as force_peak, in tenths of the reference's force at that moment (of 0.5 N below that)",
-       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, forceSteps, &Sum::peak); }, false, oneStep},
+       [](const Evidence& s, const Evidence& r) {
+         return worstFinger(
+             s, r, [](const auto& a, const auto& b) { return forceSteps(a, b); }, &Sum::peak);
+       },
+       false, oneStep},
       {"force_held", "Force as held, RMS error", "N",
        "root of the mean square of |force that the device holds − reference| over all time, between the ticks too; "
        "worst "
        "finger",
-       [](const Evidence& s, const Evidence& r) { return held(s, r, false); }, false, forceNoticeable},
+       held<false>, false, forceNoticeable},
       {"force_held_jnd", "Force as held, RMS error in just-noticeable steps", "steps",
-       "as force_held, in tenths of the reference's force at that moment (of 0.5 N below that)",
-       [](const Evidence& s, const Evidence& r) { return held(s, r, true); }, false, oneStep},
+       "as force_held, in tenths of the reference's force at that moment (of 0.5 N below that)", held<true>, false,
+       oneStep},
       {"torque", "Torque, RMS error", "mN m",
        "root of the mean square of |torque − reference| of the worst finger, while one of the two touches; for "
        "oriented "
@@ -176,8 +196,11 @@ const std::vector<Metric>& ownMetrics() {
        "the held force from 40 to 400 Hz: its RMS, less the reference's; worst finger", textureError, false,
        textureNoticeable},
       {"proxy", "Proxy, RMS error", "mm", "distance of the proxy from the reference's, while both touch; worst finger",
-       [](const Evidence& s, const Evidence& r) { return worstFinger(s, r, proxyError, &Sum::rms); }, false,
-       apertureNoticeable},
+       [](const Evidence& s, const Evidence& r) {
+         return worstFinger(
+             s, r, [](const auto& a, const auto& b) { return proxyError(a, b); }, &Sum::rms);
+       },
+       false, apertureNoticeable},
       {"position", "Object position, RMS error", "mm", "distance of the free bodies' origins from the reference's",
        [](const Evidence& s, const Evidence& r) { return bodies(s, r, positionError); }, false, apertureNoticeable},
       {"angle", "Object orientation, RMS error", "deg", "angle between the free bodies and the reference's",

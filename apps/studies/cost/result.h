@@ -72,6 +72,8 @@ struct Result {
   std::vector<std::pair<std::string, std::string>> machine;  ///< facts about the machine
   std::string command;
   bool interrupted = false;
+  std::size_t runs = 0;     ///< made for this study now, the kept ones of --resume not counted
+  double runs_seconds = 0;  ///< wall time while they ran [s]
 };
 
 }  // namespace presa::cost

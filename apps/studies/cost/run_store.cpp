@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/file_text.h"
+#include "experiments/study/jobs.h"
 
 namespace presa::cost {
 namespace {
@@ -54,10 +56,17 @@ Timing RunStore::timing(std::uint64_t scene_hash, int repeat) const {
   return timingFrom(readJson(timingName(base(scene_hash), repeat)));
 }
 
-void RunStore::dropTraces() const {
+void RunStore::dropTraces(int workers) const {
+  std::vector<std::filesystem::path> traces;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-    if (entry.path().extension() == ".trace") std::filesystem::remove(entry.path());
+    if (entry.path().extension() == ".trace") traces.push_back(entry.path());
   }
+  const auto jobs = static_cast<std::size_t>(workers);
+  const auto remove = [&](std::size_t job) {
+    for (std::size_t i = job; i < traces.size(); i += jobs) std::filesystem::remove(traces[i]);
+    return std::string();
+  };
+  runJobs(jobs, remove, {.workers = workers});
 }
 
 }  // namespace presa::cost

@@ -19,7 +19,7 @@ class RunStore {
   void save(std::uint64_t scene_hash, int repeat, const Timing& timing) const;
   Evidence evidence(std::uint64_t scene_hash, bool with_trace) const;
   Timing timing(std::uint64_t scene_hash, int repeat) const;
-  void dropTraces() const;
+  void dropTraces(int workers) const;  ///< in processes of their own: a study of many settings has gigabytes
 
  private:
   std::string base(std::uint64_t scene_hash) const;

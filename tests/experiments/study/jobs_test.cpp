@@ -1,6 +1,7 @@
 #include "experiments/study/jobs.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -59,6 +60,40 @@ TEST(Jobs, StopEndsWhatRunsAndStartsNoMore) {
                                },
                                {.workers = 2, .time_limit = 600, .stop = [] { return true; }});
   for (const JobResult& result : results) EXPECT_EQ(result.outcome, Outcome::kNotRun);
+}
+
+TEST(Jobs, EndWithTheProcessThatAskedForThem) {
+  int lives[2];
+  ASSERT_EQ(::pipe(lives), 0);  // its end is read when no process has it open any more
+  const pid_t asker = ::fork();
+  if (asker == 0) {
+    ::close(lives[0]);
+    runJobs(4,
+            [](std::size_t) -> std::string {
+              std::this_thread::sleep_for(std::chrono::hours(1));
+              return {};
+            },
+            {.workers = 2});
+    ::_exit(0);
+  }
+  ::close(lives[1]);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ::kill(asker, SIGKILL);
+  char none;
+  EXPECT_EQ(::read(lives[0], &none, 1), 0);  // waits for hours where jobs go on
+  ::close(lives[0]);
+  EXPECT_EQ(::waitpid(asker, nullptr, 0), asker);
+}
+
+TEST(Jobs, ThatCannotBeStartedAnyMoreAreAnError) {
+  // the first job kills the process that starts the others
+  EXPECT_THROW(runJobs(3,
+                       [](std::size_t) -> std::string {
+                         ::kill(::getppid(), SIGKILL);
+                         return {};
+                       },
+                       {.workers = 1}),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -191,8 +191,9 @@ TEST_F(Shards, OfAChangedMeshAreRefused) {
 // A run that is killed for want of memory says nothing about its setting.
 TEST_F(Shards, WithAKilledRunAreNotFinished) {
   const std::string shard = kStudy + " --shard 1/1 --jobs 1 --out " + in("part_1");
-  const auto killed = shell(std::string("sh -c '") + PRESA_BINARY_DIR + "/bin/presa " + shard +
-                            " & pid=$!; while ! pkill -KILL -P $pid; do sleep 0.002; done; wait $pid'");
+  const auto killed =
+      shell(std::string("sh -c '") + PRESA_BINARY_DIR + "/bin/presa " + shard +
+            " & pid=$!; until starter=$(pgrep -P $pid) && pkill -KILL -P $starter; do sleep 0.002; done; wait $pid'");
   EXPECT_EQ(killed.status, 1) << killed.err;
   EXPECT_THAT(killed.err, HasSubstr("killed from outside"));
   EXPECT_FALSE(fs::exists(in("part_1/shard.json")));
