@@ -39,13 +39,13 @@ Factor parseFactor(const std::string& text, const Scene& scene, const std::strin
 
 constexpr std::size_t kManyBodies = 2;  // more that move are slow to step
 
-/// Levels of the reference: of a quick study two for many bodies, three for meshes and tools, so that it takes 20 s at most.
+/// Levels of the reference: of a quick study two for many bodies and for tools, three for meshes, so that it takes 20 s
+/// at most.
 std::size_t levelsFor(const Loaded& base, bool quick) {
   if (!quick) return 4;
   const auto moving = std::ranges::count_if(base.world->scene.bodies, [](const Body& body) { return !body.fixed; });
-  return static_cast<std::size_t>(moving) > kManyBodies                   ? 2
-         : base.plan.has("collision_fcl") || base.world->scene.hasTools() ? 3
-                                                                          : 4;
+  if (static_cast<std::size_t>(moving) > kManyBodies || base.world->scene.hasTools()) return 2;
+  return base.plan.has("collision_fcl") ? 3 : 4;
 }
 
 /// Whether ticks of `rate` fall on those of the haptic thread.
