@@ -58,6 +58,11 @@ class SurfaceEffect {
   virtual void apply(const SurfaceInput&, SurfaceContact&) noexcept {}
   /// Description for `presa explain`.
   virtual std::string what() const = 0;
+  /// Whether Presa asks friction() for its answer. Thread: main.
+  virtual bool changesFriction() const { return false; }
+  /// Share of the material's coefficients of friction where the tool touches the body, 0 to 1; beyond, as apply. Asked
+  /// before the friction of the tick: input.contact is the one without friction.
+  virtual double friction(const SurfaceInput&) noexcept { return 1; }
 };
 
 /// Table of a surface-effect plug-in; its manifest (framework/scene/manifest.h) names its elements.

@@ -74,6 +74,30 @@ bool SurfaceEffects::turn(const SurfaceInput& input, ProxyContact& contact) noex
   return true;
 }
 
+// Of several the first one.
+void SurfaceEffects::breaks(const Effect& effect) noexcept {
+  const Effect* none = nullptr;
+  broken_.compare_exchange_strong(none, &effect, std::memory_order_acq_rel);
+}
+
+bool SurfaceEffects::changeFriction() const {
+  return std::ranges::any_of(of_body_, [](const std::vector<Effect>& effects) {
+    return std::ranges::any_of(effects, [](const Effect& each) { return each.effect->changesFriction(); });
+  });
+}
+
+double SurfaceEffects::friction(const SurfaceInput& input) noexcept {
+  double share = 1;
+  for (const Effect& each : of_body_[static_cast<std::size_t>(input.contact.body)]) {
+    const double here = each.effect->friction(input);
+    if (here >= 0 && here <= 1)
+      share *= here;
+    else
+      breaks(each);  // NaN too
+  }
+  return share;
+}
+
 // False: an effect broke its contract, now or before.
 bool SurfaceEffects::apply(std::int32_t body, const SurfaceInput& input, SurfaceContact& contact) noexcept {
   const double stiffness = contact.stiffness;
@@ -81,8 +105,7 @@ bool SurfaceEffects::apply(std::int32_t body, const SurfaceInput& input, Surface
     each.effect->apply(input, contact);
     const double sum = contact.depth + contact.nhat.sum() + contact.tangential.sum();
     if (std::isfinite(sum) && contact.stiffness >= 0 && contact.stiffness <= kStiffnessRounding * stiffness) continue;
-    const Effect* none = nullptr;
-    broken_.compare_exchange_strong(none, &each, std::memory_order_acq_rel);
+    breaks(each);
   }
   return broken_.load(std::memory_order_relaxed) == nullptr;
 }

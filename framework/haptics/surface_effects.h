@@ -21,19 +21,26 @@ class SurfaceEffects {
   /// `softness`: the stiffness that is left over it. False: an effect broke its contract, now or before.
   bool act(const SurfaceInput& input, double stiffness, ProxyContact& contact, double& softness) noexcept;
 
+  /// Whether an effect answers friction(). Thread: main.
+  bool changeFriction() const;
+  /// Share of the coefficients of friction where the tool touches input.contact.body, 0 to 1.
+  double friction(const SurfaceInput& input) noexcept;
+
   /// Descriptions, each once, in the order of the bodies.
   std::vector<std::string> descriptions() const;
   /// "surface effect <ripples> of body 'cube'" that broke its contract, or empty. Thread: any.
   std::string broken() const;
 
  private:
-  bool turn(const SurfaceInput& input, ProxyContact& contact) noexcept;
-  bool apply(std::int32_t body, const SurfaceInput& input, SurfaceContact& contact) noexcept;
-
   struct Effect {
     std::unique_ptr<SurfaceEffect> effect;
     std::string name;
   };
+
+  bool turn(const SurfaceInput& input, ProxyContact& contact) noexcept;
+  void breaks(const Effect& effect) noexcept;
+  bool apply(std::int32_t body, const SurfaceInput& input, SurfaceContact& contact) noexcept;
+
   std::vector<std::vector<Effect>> of_body_;
   std::atomic<const Effect*> broken_{nullptr};
 };

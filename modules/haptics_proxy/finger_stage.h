@@ -84,14 +84,20 @@ class SurfaceStage : public FingerStage {
  public:
   /// The effect that broke its contract, or empty. Thread: any.
   virtual std::string broken() const = 0;
+  /// Whether friction() has something to say. Thread: main.
+  virtual bool changesFriction() const = 0;
+  /// Share of the coefficients of friction where the finger touches the body, 0 to 1. Thread: haptic; nonblocking.
+  virtual double friction(const FingerTick& tick, std::int32_t body) noexcept = 0;
 };
 
 // Each stage is in the file of its name, friction in law_stage.cpp; spring and damping are in render_stages.cpp.
-/// `renderer` has a mover, and must outlive the stage.
-std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const Renderer& renderer);
+/// `renderer` has a mover, and must outlive the stage, as must `places`, which the coefficients depend on; null: they
+/// are the same all over a body.
+std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
+                                            SurfaceStage* places);
 /// `change` must outlive the stage, too.
 std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
-                                                    const In<SurfaceChange>& change);
+                                                    SurfaceStage* places, const In<SurfaceChange>& change);
 /// `world` and `hits` must outlive the stage; null: no effect hears hits.
 std::unique_ptr<SurfaceStage> makeSurfaces(const World& world, const SurfacesInForce& surfaces,
                                            const In<BodyHits>* hits);

@@ -51,17 +51,18 @@ void HapticsProxy::addFingertips(const HapticEffects& effects, const SurfacesInF
   }
   renderer_ = makeRenderer(*world_);
   own_contacts_ = BoundedList<RenderedContact>(renderer_->maxOwnContacts());
+  std::unique_ptr<SurfaceStage> surfaces;
+  if (effects.surface_effects) {
+    if (effects.hits) hits_.emplace(*this, kBodyHitsPort, In<BodyHits>::Optional{});
+    surfaces = makeSurfaces(*world_, in_force, hits_ ? &*hits_ : nullptr);
+    surface_effects_ = surfaces.get();
+  }
   if (effects.friction) {
     auto friction = frictionOf(effects, in_force);
     friction_ = friction.get();
     finger_stages_.push_back(std::move(friction));
   }
-  if (effects.surface_effects) {
-    if (effects.hits) hits_.emplace(*this, kBodyHitsPort, In<BodyHits>::Optional{});
-    auto surfaces = makeSurfaces(*world_, in_force, hits_ ? &*hits_ : nullptr);
-    surface_effects_ = surfaces.get();
-    finger_stages_.push_back(std::move(surfaces));
-  }
+  if (surfaces) finger_stages_.push_back(std::move(surfaces));
   finger_stages_.push_back(effects.surface_effects ? makeSoftSpring(in_force) : makeSpring(in_force));
   if (effects.damping) finger_stages_.push_back(makeDamping(in_force));
   if (effects.torsion) finger_stages_.push_back(makeTorsion(in_force));
@@ -76,8 +77,10 @@ SurfacesInForce HapticsProxy::surfaces(const HapticEffects& effects) {
 }
 
 std::unique_ptr<FrictionStage> HapticsProxy::frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces) {
-  if (!effects.surface_change) return makeFriction(surfaces, *renderer_);
-  return makeChangingFriction(surfaces, *renderer_,
+  SurfaceStage* const places =
+      surface_effects_ != nullptr && surface_effects_->changesFriction() ? surface_effects_ : nullptr;
+  if (!effects.surface_change) return makeFriction(surfaces, *renderer_, places);
+  return makeChangingFriction(surfaces, *renderer_, places,
                               surface_change_.emplace(*this, "surface_change", In<SurfaceChange>::Optional{}));
 }
 

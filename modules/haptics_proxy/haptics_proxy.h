@@ -70,8 +70,8 @@ class HapticsProxy final : public Module, public PluginHost {
   BoundedList<RenderedContact> own_contacts_;  ///< of the renderer, in this finger's tick
   std::atomic<bool> renderer_broken_{false};
   std::vector<std::unique_ptr<FingerStage>> finger_stages_;
-  const FrictionStage* friction_ = nullptr;        ///< null: no friction
-  const SurfaceStage* surface_effects_ = nullptr;  ///< null: no surface effects
+  const FrictionStage* friction_ = nullptr;  ///< null: no friction
+  SurfaceStage* surface_effects_ = nullptr;  ///< null: no surface effects
 
   In<DeviceState> device_{*this, "device_state"};
   In<FingerNeighbourhoods> neighbourhoods_{*this, "contact_patches", In<FingerNeighbourhoods>::Optional{}};

@@ -52,7 +52,7 @@ class LawStage : public FrictionStage {
   }
 
  protected:
-  virtual FrictionCoefficients coefficientsOf(std::int32_t body) const noexcept = 0;
+  virtual FrictionCoefficients coefficientsOf(const FingerTick& tick, std::int32_t body) const noexcept = 0;
   std::string names() const {
     std::string all;
     for (const std::string& name : laws_.names()) all += (all.empty() ? "" : ", ") + name;
@@ -66,7 +66,7 @@ class LawStage : public FrictionStage {
     InTick(const LawStage& stage, const FingerTick& tick, std::int32_t main)
         : Friction(stage.surfaces_.of(main).stiffness, tick.period), stage_(stage), tick_(tick) {}
     BodyLaw of(std::int32_t body) const noexcept override {
-      const FrictionCoefficients mu = stage_.coefficientsOf(body);
+      const FrictionCoefficients mu = stage_.coefficientsOf(tick_, body);
       BodyLaw with{stage_.laws_.of(body), mu.mu_static, mu.mu_dynamic};
       if (body != tick_.finger.frame) with.q_BA = tick_.touchables.frameOf(body).q.conjugate() * tick_.X_WA.q;
       return with;
@@ -83,20 +83,20 @@ class LawStage : public FrictionStage {
   std::atomic<int> broken_{-1};  // body
 };
 
-class SteadyFriction final : public LawStage {
+class SteadyFriction : public LawStage {
  public:
   using LawStage::LawStage;
   std::string what() const override { return "friction: " + names(); }
 
- private:
-  FrictionCoefficients coefficientsOf(std::int32_t body) const noexcept override {
+ protected:
+  FrictionCoefficients coefficientsOf(const FingerTick&, std::int32_t body) const noexcept override {
     const Material& material = surfaces_.of(body);
     return {material.friction_static, material.friction_dynamic};
   }
 };
 
 /// Uses the changed coefficients from the tick of the change on; a sticking finger outside the new bound then slips.
-class ChangingFriction final : public LawStage {
+class ChangingFriction : public LawStage {
  public:
   ChangingFriction(const SurfacesInForce& surfaces, const Renderer& renderer, const In<SurfaceChange>& change)
       : LawStage(surfaces, renderer), change_(change) {
@@ -110,22 +110,44 @@ class ChangingFriction final : public LawStage {
     return "friction: " + names() + ", with other coefficients after the surface change";
   }
 
- private:
-  FrictionCoefficients coefficientsOf(std::int32_t body) const noexcept override {
+ protected:
+  FrictionCoefficients coefficientsOf(const FingerTick&, std::int32_t body) const noexcept override {
     return coefficients_[static_cast<std::size_t>(body)][change_->happened ? 1 : 0];
   }
 
+ private:
   std::vector<std::array<FrictionCoefficients, 2>> coefficients_;  // by body: before and after
   const In<SurfaceChange>& change_;
 };
 
+/// Coefficients that surface effects lower from place to place.
+template <class All>
+class ByPlace final : public All {
+ public:
+  template <class... Arguments>
+  explicit ByPlace(SurfaceStage& places, const Arguments&... arguments) : All(arguments...), places_(places) {}
+  std::string what() const override { return All::what() + "; from place to place, as the surface effects say"; }
+
+ private:
+  FrictionCoefficients coefficientsOf(const FingerTick& tick, std::int32_t body) const noexcept override {
+    const FrictionCoefficients all = All::coefficientsOf(tick, body);
+    const double share = places_.friction(tick, body);
+    return {share * all.mu_static, share * all.mu_dynamic};
+  }
+
+  SurfaceStage& places_;
+};
+
 }  // namespace
 
-std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const Renderer& renderer) {
+std::unique_ptr<FrictionStage> makeFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
+                                            SurfaceStage* places) {
+  if (places != nullptr) return std::make_unique<ByPlace<SteadyFriction>>(*places, surfaces, renderer);
   return std::make_unique<SteadyFriction>(surfaces, renderer);
 }
 std::unique_ptr<FrictionStage> makeChangingFriction(const SurfacesInForce& surfaces, const Renderer& renderer,
-                                                    const In<SurfaceChange>& change) {
+                                                    SurfaceStage* places, const In<SurfaceChange>& change) {
+  if (places != nullptr) return std::make_unique<ByPlace<ChangingFriction>>(*places, surfaces, renderer, change);
   return std::make_unique<ChangingFriction>(surfaces, renderer, change);
 }
 

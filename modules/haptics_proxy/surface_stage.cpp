@@ -14,17 +14,8 @@ class Surfaces final : public SurfaceStage {
   void apply(FingerTick& tick) noexcept override {
     ProxyContact& contact = tick.contact;
     if (!contact.state.touching || !effects_.on(contact.body)) return;
-    const SurfaceInput input{tick.index,
-                             tick.time,
-                             tick.period,
-                             tick.r,
-                             tick.g,
-                             contact,
-                             tick.X_WA,
-                             tick.touchables,
-                             *tick.finger.near,
-                             hits_ == nullptr ? nullptr : &hits_->value()};
-    if (!effects_.act(input, surfaces_.of(contact.body).stiffness, contact, tick.softness)) tick.broken = true;
+    if (!effects_.act(inputOf(tick, contact), surfaces_.of(contact.body).stiffness, contact, tick.softness))
+      tick.broken = true;
   }
   std::string what() const override {
     std::string all;
@@ -33,7 +24,34 @@ class Surfaces final : public SurfaceStage {
   }
   std::string broken() const override { return effects_.broken(); }
 
+  bool changesFriction() const override { return effects_.changeFriction(); }
+  // of several bodies that hold the finger each is asked where it touches the finger itself
+  double friction(const FingerTick& tick, std::int32_t body) noexcept override {
+    if (!effects_.on(body)) return 1;
+    if (body == tick.contact.body) return effects_.friction(inputOf(tick, tick.contact));
+    ProxyContact there = tick.contact;
+    there.body = body;
+    for (int i = 0; i < there.active.count; ++i) {
+      const ActiveSet::Member& member = there.active.member[static_cast<std::size_t>(i)];
+      if (member.body == body) there.nhat = member.nhat;
+    }
+    return effects_.friction(inputOf(tick, there));
+  }
+
  private:
+  SurfaceInput inputOf(const FingerTick& tick, const ProxyContact& contact) const noexcept {
+    return {tick.index,
+            tick.time,
+            tick.period,
+            tick.r,
+            tick.g,
+            contact,
+            tick.X_WA,
+            tick.touchables,
+            *tick.finger.near,
+            hits_ == nullptr ? nullptr : &hits_->value()};
+  }
+
   const SurfacesInForce surfaces_;
   const In<BodyHits>* const hits_;
   SurfaceEffects effects_;

@@ -55,8 +55,8 @@ bool suits(png_structp png, png_infop info, Reading& reading) {
   }
   const int type = png_get_color_type(png, info);
   if (type == PNG_COLOR_TYPE_GRAY) return true;
-  say(reading, type == PNG_COLOR_TYPE_GRAY_ALPHA ? "has transparency; a height map is grey only"
-                                                 : "has colours; a height map is grey only");
+  say(reading, type == PNG_COLOR_TYPE_GRAY_ALPHA ? "has transparency; only grey images are read"
+                                                 : "has colours; only grey images are read");
   return false;
 }
 

@@ -32,6 +32,7 @@ void effect(benchmark::State& state, const std::string& element) {
   const ProxyContact touched = renderer->touch({0, g, kRadius, start, X_WA, near, own});
   if (!touched.state.touching) return state.SkipWithError("no contact");
   double phase = 0;
+  const bool friction = effects.changeFriction();
   for (auto _ : state) {
     phase += 0.01;
     ProxyContact contact = touched;
@@ -39,6 +40,7 @@ void effect(benchmark::State& state, const std::string& element) {
     contact.tangential_displacement.x() = 1e-3 * std::sin(phase);
     double softness = 1;
     const SurfaceInput input{0, 0, 1e-3, kRadius, g, contact, X_WA, touchables, near, nullptr};
+    if (friction) benchmark::DoNotOptimize(effects.friction(input));
     effects.act(input, 1000, contact, softness);
     benchmark::DoNotOptimize(contact);
   }
@@ -56,6 +58,12 @@ void textureImage(benchmark::State& state) {
          "texture_image file=\"" PRESA_SOURCE_DIR "/config/textures/weave.png\" width=\"0.006\" amplitude=\"0.0001\"");
 }
 BENCHMARK(textureImage)->Name("texture/image");
+
+void materialImage(benchmark::State& state) {
+  effect(state, "material_image file=\"" PRESA_SOURCE_DIR
+                "/config/textures/pads.png\" width=\"0.04\" stiffness=\"0.4\" friction=\"0.2\"");
+}
+BENCHMARK(materialImage)->Name("texture/material");
 
 void perturbation(benchmark::State& state, const std::string& form) {
   effect(state, "perturbation shape=\"sine\" amplitude=\"0.0001\" wavelength=\"0.002\" form=\"" + form + "\"");

@@ -15,7 +15,7 @@ page() {  # PAGE NAME OUT: the top of a page, in light colours
   case $2 in
     cube_report) size=1180,1310 ;;      # to the time axis of the first finger
     stability_report) size=1280,1240 ;; # verdict and the first cases
-    scene_pages) size=1770,3000 ;;      # up to 72 pages, 6 beside each other
+    scene_pages) size=1770,3250 ;;      # up to 78 pages, 6 beside each other
     *) echo "there is no page '$2'" >&2 && return 2 ;;
   esac
   FONTCONFIG_FILE=$here/fonts.conf timeout 100 chromium --headless --no-sandbox --disable-gpu \
@@ -31,7 +31,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
   case $name in
     balance) args+=(--screenshot-at 13) ;; # the beam has levelled
     chain) args+=(--camera "0.45,-0.65,0.55:0,0,0.4") ;; # between the posts
-    friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
+    friction_torsion | layers | material_image | perturbation | texture_*) args+=(--screenshot-at 2) ;;
     groove) args+=(--screenshot-at 3.5) ;;
     guide_path) args+=(--screenshot-at 1.17) ;;
     honey | wind) args+=(--screenshot-at 1.7) ;;

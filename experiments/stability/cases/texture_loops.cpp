@@ -49,6 +49,14 @@ Surface image() {
           {element + "file=../../../config/textures/weave.png", element + "width=0.006", element + "amplitude=0.0001"}};
 }
 
+/// The shipped pads: soft where the image is black.
+Surface materialImage() {
+  const std::string element = "material/stone/material_image/";
+  return {"material by image",
+          "20 mm",
+          {element + "file=../../../config/textures/pads.png", element + "width=0.02", element + "stiffness=0.5"}};
+}
+
 /// Force perturbation of a sine.
 Surface perturbation(const Method& form) {
   Surface surface{"perturbation", "2 mm", {}, form};
@@ -109,7 +117,7 @@ Case make() {
   result.scene = "texture_loops.xml";
   for (const Surface& surface :
        {texture("sine", "0.0001", "0.002"), texture("sine", "0.0001", "0.001"), texture("grid", "0.0001", "0.002"),
-        texture("noise", "0.0002", "0.002"), image(), overLayers({"", kNone, {}}),
+        texture("noise", "0.0002", "0.002"), image(), materialImage(), overLayers({"", kNone, {}}),
         overLayers(texture("sine", "0.0001", "0.002")), perturbation(ours()),
         perturbation({"printed formula", {"material/stone/perturbation/form=printed"}})}) {
     for (const bool touch_and_go : {false, true}) {

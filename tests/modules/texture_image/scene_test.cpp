@@ -71,8 +71,8 @@ TEST(BadImage, IsRefusedWithItsPlaceBeforeAnythingMoves) {
   std::ofstream(test::scratch("empty.png")).flush();
   ASSERT_EQ(mkfifo(test::scratch("pipe.png").c_str(), 0600), 0);
   for (const auto& [file, expected] : {std::pair("none.png", "cannot be read: No such file"),
-                                       {"rgb.png", "has colours; a height map is grey only"},
-                                       {"alpha.png", "has transparency; a height map is grey only"},
+                                       {"rgb.png", "has colours; only grey images are read"},
+                                       {"alpha.png", "has transparency; only grey images are read"},
                                        {"wide.png", "has 2049 by 1 pixels, at most 2048 by 2048 are read"},
                                        {"short.png", "is damaged: "},
                                        {"huge.png", "has 33554433 bytes, at most 33554432 are read"},
