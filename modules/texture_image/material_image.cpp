@@ -7,18 +7,23 @@
 #include <stdexcept>
 
 #include "framework/haptics/face_height.h"
+#include "framework/haptics/felt_height.h"
 #include "modules/texture_image/image_on_face.h"
 #include "modules/texture_image/texture_image.h"
 
 namespace presa {
 namespace {
 
+constexpr double kShownForce = 1;      // [N]
 constexpr double kUsualDepth = 0.002;  // at which the force leans by at most 45 degrees [m]
 
-class MaterialImage final : public SurfaceEffect {
+class MaterialImage final : public SurfaceEffect, public FeltHeight {
  public:
-  explicit MaterialImage(const PluginElement& element)
-      : image_(element), stiffness_(element.number("stiffness")), friction_(element.number("friction")) {
+  MaterialImage(const PluginElement& element, const Material& material)
+      : image_(element),
+        stiffness_(element.number("stiffness")),
+        friction_(element.number("friction")),
+        sinks_(kShownForce / material.stiffness) {
     const double steepest = 0.5 * (1 - stiffness_) * image_.maxSlope();
     if (steepest * kUsualDepth / 2 > stiffness_)
       throw std::invalid_argument(
@@ -42,6 +47,11 @@ class MaterialImage final : public SurfaceEffect {
   double friction(const SurfaceInput& input) noexcept override {
     asked_ = look(input);
     return shareOf(asked_.s, friction_);
+  }
+  // under the shown force a finger sinks deeper where it is soft; where all is as hard, dark is slippery
+  double heightAt(const Vec3& p_T) const noexcept override {
+    const double s = image_.at(p_T).s;
+    return stiffness_ != 1 ? sinks_ * (1 - 1 / shareOf(s, stiffness_)) : sinks_ * (shareOf(s, friction_) - 1);
   }
   std::string what() const override {
     std::string text = "material by image " + image_.name() + ", black: ";
@@ -73,13 +83,14 @@ class MaterialImage final : public SurfaceEffect {
 
   ImageOnFace image_;
   double stiffness_, friction_;  // of black
+  double sinks_;                 // white, under the shown force [m]
   Here asked_;                   // by the friction of this tick
 };
 
 }  // namespace
 
-std::unique_ptr<SurfaceEffect> makeMaterialImage(const PluginElement& element) {
-  return std::make_unique<MaterialImage>(element);
+std::unique_ptr<SurfaceEffect> makeMaterialImage(const PluginElement& element, const Material& material) {
+  return std::make_unique<MaterialImage>(element, material);
 }
 
 }  // namespace presa

@@ -8,7 +8,9 @@ const SurfaceEffectPlugin kPlugin{
     .name = "texture_image",
     .create = [](const PluginElement& element, const World& world) -> std::unique_ptr<SurfaceEffect> {
       requireFlatSides(element, world);
-      return element.element == "material_image" ? makeMaterialImage(element) : makeTextureImage(element);
+      if (element.element != "material_image") return makeTextureImage(element);
+      return makeMaterialImage(element,
+                               world.scene.materialOf(world.scene.bodies[static_cast<std::size_t>(element.body)]));
     }};
 
 }  // namespace

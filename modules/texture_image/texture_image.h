@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "framework/haptics/surface_effect.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
 
@@ -10,6 +11,6 @@ std::unique_ptr<SurfaceEffect> makeTextureImage(const PluginElement& element);
 
 /// Shares of a material's stiffness and friction by an image, <material_image>. Throws std::invalid_argument: the errors
 /// of ImageOnFace, a stiffness that changes too steeply.
-std::unique_ptr<SurfaceEffect> makeMaterialImage(const PluginElement& element);
+std::unique_ptr<SurfaceEffect> makeMaterialImage(const PluginElement& element, const Material& material);
 
 }  // namespace presa

@@ -49,12 +49,12 @@ Surface image() {
           {element + "file=../../../config/textures/weave.png", element + "width=0.006", element + "amplitude=0.0001"}};
 }
 
-/// The shipped pads: soft where the image is black.
+/// The shipped pads, soft where the image is black, drawn out so that the path crosses their borders.
 Surface materialImage() {
-  const std::string element = "material/stone/material_image/";
-  return {"material by image",
-          "20 mm",
-          {element + "file=../../../config/textures/pads.png", element + "width=0.02", element + "stiffness=0.5"}};
+  Surface surface{"material by image", "12 mm", {}};
+  for (const char* value : {"file=../../../config/textures/pads.png", "width=0.012", "height=0.02", "stiffness=0.7"})
+    surface.sets.push_back(std::string("material/stone/material_image/") + value);
+  return surface;
 }
 
 /// Force perturbation of a sine.
