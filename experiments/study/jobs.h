@@ -26,8 +26,8 @@ struct JobOptions {
 };
 
 /// Runs jobs 0 … count-1, each in its own process, and returns their results by index. A job that throws, crashes or
-/// times out gives a result and does not affect the others. Jobs are forks: call this while the process has a single
-/// thread.
+/// times out gives a result and does not affect the others. Jobs are forks of a fork of this process, as it is now: call
+/// this while it has a single thread. They end with it. Throws std::runtime_error when no more jobs can be started.
 std::vector<JobResult> runJobs(std::size_t count, const std::function<std::string(std::size_t)>& job,
                                const JobOptions& options = {});
 
