@@ -445,7 +445,9 @@ std::vector<Factor> defaultFactors(const Loaded& base, const std::string& folder
                                           : std::vector<std::string>{"400", "500", "1000", "2000", "4000"});
   if (touches && !usual_rates)  // the scene's other rates do not fit to them
     add("haptic_rate", {xml::numberText(2 * scene.rates.haptic), xml::numberText(4 * scene.rates.haptic)});
-  if (moves && touches) add("coupling", {"soft", "explicit", "averaged", "haptic_rate"});
+  if (moves && touches)
+    add("coupling", quick ? std::vector<std::string>{"soft", "explicit"}
+                          : std::vector<std::string>{"soft", "explicit", "averaged", "haptic_rate"});
   if (moves && touches) add("pose", {"interpolate", "hold"});
   if (meshes)
     add("collision_rate",

@@ -38,14 +38,26 @@ Factor parseFactor(const std::string& text, const Scene& scene, const std::strin
 }
 
 constexpr std::size_t kManyBodies = 2;  // more that move are slow to step
+constexpr int kLowestRate = 1250;       // of a level [Hz]
 
-/// Levels of the reference: of a quick study two for many bodies and for tools, three for meshes, so that it takes 20 s
-/// at most.
-std::size_t levelsFor(const Loaded& base, bool quick) {
-  if (!quick) return 4;
+std::size_t movingBodies(const Loaded& base) {
   const auto moving = std::ranges::count_if(base.world->scene.bodies, [](const Body& body) { return !body.fixed; });
-  if (static_cast<std::size_t>(moving) > kManyBodies || base.world->scene.hasTools()) return 2;
-  return base.plan.has("collision_fcl") ? 3 : 4;
+  return static_cast<std::size_t>(moving);
+}
+
+/// Haptic rates of the reference's levels [Hz]. A quick study has two for many bodies and for tools, three for meshes,
+/// and lower ones for a heap, so that it takes 20 s at most.
+std::vector<int> levelRates(const Loaded& base, bool quick) {
+  constexpr double kSteps = 250'000;  // of one body, which takes 20 to 40 us
+  std::vector<int> rates{5000, 10000, 20000, 40000};
+  if (!quick) return rates;
+  const std::size_t moving = movingBodies(base);
+  const bool two = moving > kManyBodies || base.world->scene.hasTools();
+  rates.resize(two ? 2 : base.plan.has("collision_fcl") ? 3 : 4);
+  const auto steps = [&] { return static_cast<double>(moving) * base.options.duration * rates.back(); };
+  while (moving > kManyBodies && steps() > kSteps && rates.front() > kLowestRate)
+    for (int& rate : rates) rate /= 2;
+  return rates;
 }
 
 /// Whether ticks of `rate` fall on those of the haptic thread.
@@ -55,13 +67,13 @@ std::vector<std::vector<std::string>> defaultReference(const Loaded& base, bool 
   const Scene& scene = base.world->scene;
   const bool motion = hasMotion(base.plan), meshes = base.plan.has("collision_fcl");
   std::vector<std::vector<std::string>> levels;
-  for (const int rate : {5000, 10000, 20000, 40000}) {
+  for (const int rate : levelRates(base, quick)) {
     std::vector<std::string>& sets = levels.emplace_back();
     sets.push_back("rates/haptic=" + std::to_string(rate));
     if (motion || !fits(rate, scene.rates.dynamics)) sets.push_back("rates/dynamics=" + std::to_string(rate));
-    if (meshes || !fits(rate, scene.rates.collision)) sets.emplace_back("rates/collision=2500");
+    if (meshes || !fits(rate, scene.rates.collision))
+      sets.push_back("rates/collision=" + std::to_string(std::min(rate, 2500)));
   }
-  levels.resize(levelsFor(base, quick));
   return levels;
 }
 
