@@ -1,4 +1,4 @@
-#include "framework/core/schedule/clock.h"
+#include "apps/studies/cost/cost_command.h"
 
 #include <cstdio>
 #include <filesystem>

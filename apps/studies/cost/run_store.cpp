@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "apps/common/atomic_file.h"
@@ -66,7 +67,8 @@ void RunStore::dropTraces(int workers) const {
     for (std::size_t i = job; i < traces.size(); i += jobs) std::filesystem::remove(traces[i]);
     return std::string();
   };
-  runJobs(jobs, remove, {.workers = workers});
+  for (const JobResult& result : runJobs(jobs, remove, {.workers = workers}))
+    if (result.outcome != JobResult::Outcome::kDone) throw std::runtime_error("cannot remove a trace: " + result.text);
 }
 
 }  // namespace presa::cost

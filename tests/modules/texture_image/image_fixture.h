@@ -68,4 +68,28 @@ inline World imageCube(const ImageValues& values, const Pose& X_WB = oddPose()) 
 
 inline constexpr double kPlace = 1e-6 * kR;  // of the proxy, which ends within that of its place [m]
 
+/// Work on a finger that goes once around a circle of 25 mm, by the trapezoidal rule [N m]. The circle `leaves` the face
+/// and comes back, or stays below it.
+struct Work {
+  double net = 0, moved = 0;  ///< sum, and sum of the amounts
+};
+inline Work workRound(OnSide& finger, bool leaves, int steps) {
+  Work sum;
+  Vec3 last_p, last_f;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = kTurn * (i % steps) / steps;
+    const double depth = leaves ? 0.00025 + 0.00075 * std::sin(angle + 0.3) : 0.0015 + 0.0005 * std::sin(2 * angle);
+    const Vec3 p(0.004 * std::cos(angle), 0.004 * std::sin(angle), depth), f = finger.force(p.x(), p.y(), p.z());
+    if (i > 0) {
+      const Vec3 way = p - last_p;
+      const double work = 0.5 * (f + last_f).dot(Vec3(way.x(), way.y(), -way.z()));
+      sum.net += work;
+      sum.moved += std::abs(work);
+    }
+    last_p = p;
+    last_f = f;
+  }
+  return sum;
+}
+
 }  // namespace presa::test

@@ -70,21 +70,7 @@ TEST(ALoopOverAMaterialImage, GainsNoEnergy) {
     std::vector<double> share;
     for (const int steps : {1500, 3000}) {
       OnSide finger(cube(file, 0.5, 1), 3);
-      double net = 0, moved = 0;
-      Vec3 last_p, last_f;
-      for (int i = 0; i <= steps; ++i) {
-        const double angle = kTurn * (i % steps) / steps;
-        const double depth = leaves ? 0.00025 + 0.00075 * std::sin(angle + 0.3) : 0.0015 + 0.0005 * std::sin(2 * angle);
-        const Vec3 p(0.004 * std::cos(angle), 0.004 * std::sin(angle), depth), f = finger.force(p.x(), p.y(), p.z());
-        if (i > 0) {
-          const Vec3 way = p - last_p;
-          const double work = 0.5 * (f + last_f).dot(Vec3(way.x(), way.y(), -way.z()));
-          net += work;
-          moved += std::abs(work);
-        }
-        last_p = p;
-        last_f = f;
-      }
+      const auto [net, moved] = test::workRound(finger, leaves, steps);
       share.push_back(std::abs(net) / moved);
     }
     // 25 mm in 1500 steps of 17 um: 150 a pixel of 2.5 mm
