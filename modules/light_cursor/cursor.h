@@ -4,7 +4,7 @@
 #include "framework/haptics/convex_pairs.h"
 #include "framework/haptics/tool_renderer.h"
 #include "framework/haptics/virtual_coupling.h"
-#include "modules/light_cursor/sticking.h"
+#include "framework/haptics/sticking.h"
 
 namespace presa {
 

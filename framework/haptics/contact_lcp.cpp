@@ -3,7 +3,7 @@
 // however many contacts there are. A set fits if exactly its own contacts overlap after the step. Equivalently u is the
 // minimum of the convex energy E(u) = u Q u / 2 - r u + k / 2 sum of min(0, J_i u + gap_i)^2: a pivot goes from u towards
 // the solution of its set, as far as E falls, so that no set comes twice.
-#include "modules/light_cursor/contact_lcp.h"
+#include "framework/haptics/contact_lcp.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "framework/core/exchange/bounded_list.h"
 #include "framework/scene/scene.h"
-#include "modules/light_cursor/contact_lcp.h"
+#include "framework/haptics/contact_lcp.h"
 
 namespace presa {
 

@@ -1,5 +1,5 @@
 // The contact problem against its own definition: complementarity is checked, not the way to it.
-#include "modules/light_cursor/contact_lcp.h"
+#include "framework/haptics/contact_lcp.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/light_cursor/sticking.h"
+#include "framework/haptics/sticking.h"
 
 #include <algorithm>
 #include <utility>
