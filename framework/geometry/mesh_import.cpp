@@ -4,10 +4,12 @@
 #include <memory>
 #include <sstream>
 
+#include "framework/geometry/mesh_attributes.h"
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/model.h"
 #include "framework/geometry/texture_check.h"
 #include "framework/geometry/tri_mesh.h"
+#include "framework/geometry/weld.h"
 #include "framework/input/input.h"
 #include "framework/plugin/plugin_loader.h"
 
@@ -34,13 +36,33 @@ std::string text(const Vec3& p) {
   return stream.str();
 }
 
+void turnInsideOut(MeshAttributes& attributes) {  // as the triangles of a TriMesh
+  for (std::array<float, 3>& grey : attributes.corner_grey) std::swap(grey[1], grey[2]);
+}
+
+/// Those of the kept triangles, whose former indices ascend.
+void keep(const std::vector<std::int32_t>& kept, MeshAttributes& attributes) {
+  for (std::size_t t = 0; t < kept.size(); ++t) {
+    const auto from = static_cast<std::size_t>(kept[t]);
+    attributes.part_of[t] = attributes.part_of[from];
+    if (!attributes.corner_grey.empty()) attributes.corner_grey[t] = attributes.corner_grey[from];
+  }
+  attributes.part_of.resize(kept.size());
+  if (!attributes.corner_grey.empty()) attributes.corner_grey.resize(kept.size());
+}
+
 /// Reads, checks and repairs one file; stops at the first error.
 class Import {
  public:
-  /// `model`: is filled in; null: not asked for.
+  /// `model`, `attributes`: one of them is filled in; null: not asked for.
   Import(const std::string& file, const ImportOptions& options, const SourceLocation& where, Diagnostics& diagnostics,
-         std::shared_ptr<Model> model)
-      : file_(file), options_(options), where_(where), diagnostics_(diagnostics), model_(std::move(model)) {}
+         std::shared_ptr<Model> model, MeshAttributes* attributes = nullptr)
+      : file_(file),
+        options_(options),
+        where_(where),
+        diagnostics_(diagnostics),
+        model_(std::move(model)),
+        attributes_(attributes) {}
 
   TriMesh run() {
     const bool good = checkScale() && checkFile() && read() && checkNumbers() && repair() && checkSurface();
@@ -63,6 +85,7 @@ class Import {
   bool read();
   bool take(const ImportedMesh& imported);
   bool takeModel(const ImportedModel& imported);
+  bool takeAttributes(const ImportedAttributes& imported);
   void warnAbout(const ImportedModel& imported);
   bool checkNumbers();
   bool repair();
@@ -74,6 +97,7 @@ class Import {
   const SourceLocation& where_;
   Diagnostics& diagnostics_;
   std::shared_ptr<Model> model_;
+  MeshAttributes* const attributes_;
   std::string extension_;
   TriMesh mesh_;
 };
@@ -109,7 +133,11 @@ bool Import::read() {
     const auto import = reinterpret_cast<ImportMeshFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
     const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
     const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(
-        import(file_.c_str(), extension_.c_str(), model_ != nullptr), release);
+        import(file_.c_str(), extension_.c_str(),
+               model_ != nullptr        ? MeshWanted::kModel
+               : attributes_ != nullptr ? MeshWanted::kAttributes
+                                        : MeshWanted::kTriangles),
+        release);
     return take(*imported);
   } catch (const InputError& error) {
     for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
@@ -138,7 +166,11 @@ bool Import::take(const ImportedMesh& imported) {
   for (std::size_t i = 0; i < imported.triangle_count; ++i) {
     mesh_.triangles.push_back({imported.indices[3 * i], imported.indices[3 * i + 1], imported.indices[3 * i + 2]});
   }
-  if (options_.scale.prod() < 0) turnInsideOut(mesh_);
+  if (attributes_ != nullptr && !takeAttributes(imported.attributes)) return false;
+  if (options_.scale.prod() < 0) {
+    turnInsideOut(mesh_);
+    if (attributes_ != nullptr) turnInsideOut(*attributes_);
+  }
   if (model_ == nullptr) return true;
   warnAbout(imported.model);
   return imported.model.part_count == 0 || takeModel(imported.model);
@@ -204,6 +236,22 @@ bool Import::takeModel(const ImportedModel& imported) {
   return diagnostics_.errorCount() == before;
 }
 
+/// None of a file whose indices or coordinates are wrong, which is refused later.
+bool Import::takeAttributes(const ImportedAttributes& imported) {
+  attributes_->part_of.assign(mesh_.triangles.size(), -1);
+  if (imported.part_count == 0) return true;
+  if (imported.part_count != mesh_.triangles.size() ||
+      (imported.grey_count != 0 && imported.grey_count != 3 * imported.part_count))
+    return fail(303, "its attributes do not belong to its triangles", "open it in a mesh editor and export it again");
+  for (std::size_t at = 0; at < imported.names_size; at += attributes_->parts.back().size() + 1)
+    attributes_->parts.emplace_back(imported.names + at);
+  attributes_->part_of.assign(imported.part_of, imported.part_of + imported.part_count);
+  attributes_->corner_grey.resize(imported.grey_count / 3);
+  for (std::size_t t = 0; t < attributes_->corner_grey.size(); ++t)
+    std::copy_n(imported.grey + 3 * t, 3, attributes_->corner_grey[t].begin());
+  return true;
+}
+
 void Import::warnAbout(const ImportedModel& imported) {
   const auto unmapped = [&](const ImportedPart& part) { return imported.materials[part.material].unmapped != 0; };
   if (std::any_of(imported.parts, imported.parts + imported.part_count, unmapped))
@@ -239,7 +287,9 @@ bool Import::repair() {
     return fail(307, "all points coincide or are too far apart to measure", "check the scale and the export");
   }
   const std::size_t before = mesh_.triangles.size();
-  weld(mesh_, kWeldTolerance * diagonal);
+  std::vector<std::int32_t> kept;
+  weld(mesh_, kWeldTolerance * diagonal, attributes_ != nullptr ? &kept : nullptr);
+  if (attributes_ != nullptr) keep(kept, *attributes_);
   dropUnused(mesh_);
   const std::size_t vanished = before - mesh_.triangles.size();
   const std::size_t degenerate = vanished + degenerateTriangles(mesh_);
@@ -284,6 +334,7 @@ bool Import::checkClosed(const MeshReport& report) {
   if (report.inverted) {
     turnInsideOut(mesh_);
     if (model_ != nullptr) turnInsideOut(*model_);
+    if (attributes_ != nullptr) turnInsideOut(*attributes_);
     warn(311, "it is inside out and was turned", "flip the normals in the file to avoid this warning");
   }
   return true;
@@ -294,6 +345,14 @@ bool Import::checkClosed(const MeshReport& report) {
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics) {
   return Import(file, options, where, diagnostics, nullptr).run();
+}
+
+AttributedMesh importAttributed(const std::string& file, const ImportOptions& options, const SourceLocation& where,
+                                Diagnostics& diagnostics) {
+  AttributedMesh read;
+  read.mesh = Import(file, options, where, diagnostics, nullptr, &read.attributes).run();
+  if (read.mesh.triangles.empty()) read.attributes = {};
+  return read;
 }
 
 DrawnMesh importDrawn(const std::string& file, const ImportOptions& options, const SourceLocation& where,

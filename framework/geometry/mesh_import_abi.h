@@ -5,7 +5,7 @@
 /// framework depends on no header of the mesh library.
 namespace presa {
 
-inline constexpr std::uint32_t kMeshImportAbi = 4;  ///< version of the structs below; see ImportedMesh::abi
+inline constexpr std::uint32_t kMeshImportAbi = 5;  ///< version of the structs below; see ImportedMesh::abi
 
 /// Maximum size of all files of one mesh together [bytes]: five million triangles as binary STL.
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{256} << 20U;
@@ -55,6 +55,23 @@ struct ImportedModel {
   const char* missing_library = nullptr;        ///< file of materials that is not there; null: none
 };
 
+/// Names of the materials of triangles, and grey values of vertex colours; as MeshAttributes (mesh_attributes.h).
+struct ImportedAttributes {
+  const char* names = nullptr;            ///< of the materials that triangles have, each ended by a zero
+  std::uint64_t names_size = 0;           ///< [bytes], with the zeros
+  const std::int32_t* part_of = nullptr;  ///< by triangle: which of the names; -1: none
+  std::uint64_t part_count = 0;           ///< numbers in `part_of`: triangles of the mesh
+  const float* grey = nullptr;            ///< three for each triangle, 0 to 1
+  std::uint64_t grey_count = 0;           ///< numbers in `grey`; 0: the file has no colours of vertices
+};
+
+/// Content of a file that is read beside its triangles.
+enum class MeshWanted : std::uint32_t {
+  kTriangles,  ///< nothing
+  kModel,      ///< ImportedMesh::model
+  kAttributes  ///< ImportedMesh::attributes
+};
+
 /// Triangles as stored in the file: not welded, not scaled, not checked. Frame: the file's, turned to z up. Unit: m.
 struct ImportedMesh {
   std::uint32_t abi = kMeshImportAbi;     ///< kMeshImportAbi of the plug-in; another one is refused (E300)
@@ -67,11 +84,12 @@ struct ImportedMesh {
   std::uint64_t triangle_count = 0;       ///< triangles, each of three indices
   std::uint64_t ignored_faces = 0;        ///< points and lines, which are skipped
   ImportedModel model;                    ///< only when it is asked for
+  ImportedAttributes attributes;          ///< only when they are asked for
 };
 
-/// Symbol kMeshImportSymbol: reads `file` in the format `extension` (lower case, no dot); `drawn`: with its model.
+/// Symbol kMeshImportSymbol: reads `file` in the format `extension` (lower case, no dot).
 /// Never null; throws only std::bad_alloc. Thread: any.
-using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension, bool drawn);
+using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension, MeshWanted wanted);
 /// Symbol kMeshReleaseSymbol: frees a result.
 using ReleaseMeshFunction = void (*)(const ImportedMesh*);
 

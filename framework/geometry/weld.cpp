@@ -1,9 +1,9 @@
+#include "framework/geometry/weld.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-
-#include "framework/geometry/tri_mesh.h"
 
 namespace presa {
 namespace {
@@ -81,7 +81,10 @@ void renumber(TriMesh& mesh, const std::vector<std::int32_t>& new_index) {
 
 }  // namespace
 
-std::size_t weld(TriMesh& mesh, double tolerance) {
+std::size_t weld(TriMesh& mesh, double tolerance) { return weld(mesh, tolerance, nullptr); }
+
+std::size_t weld(TriMesh& mesh, double tolerance, std::vector<std::int32_t>* kept_triangles) {
+  if (kept_triangles != nullptr) kept_triangles->clear();
   if (mesh.vertices.empty()) return 0;
   const AxisBox box = boundsOf(mesh);
   // lower limit of the cell size, so that the grid index of an ordinary mesh cannot overflow (tolerance 0: equal
@@ -102,7 +105,13 @@ std::size_t weld(TriMesh& mesh, double tolerance) {
   }
   const std::size_t removed = mesh.vertices.size() - kept.size();
   renumber(mesh, new_index);
-  std::erase_if(mesh.triangles, collapsed);
+  std::size_t remaining = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (collapsed(mesh.triangles[t])) continue;
+    if (kept_triangles != nullptr) kept_triangles->push_back(static_cast<std::int32_t>(t));
+    mesh.triangles[remaining++] = mesh.triangles[t];
+  }
+  mesh.triangles.resize(remaining);
   mesh.vertices = std::move(kept);
   return removed;
 }

@@ -312,9 +312,17 @@ std::string typeOf(const Manifest::Element& element, const Manifest::Attribute& 
   return name;
 }
 
+/// Elements that their names tell apart may stand in a material several times.
+bool hasName(const Manifest::Element& element) {
+  return std::ranges::any_of(element.attributes, [](const Manifest::Attribute& attribute) {
+    return attribute.name == "name" && attribute.required;
+  });
+}
+
 std::string declarationOf(const Manifest::Element& element, std::string& types) {
   std::string out = "<xs:element name=\"" + element.name + "\" p:implied=\"false\"";
   if (element.place != Manifest::Place::kScene) out += " minOccurs=\"0\"";
+  if (element.place == Manifest::Place::kMaterial && !hasName(element)) out += " p:occurs=\"0..1\"";
   out += "><xs:complexType>";
   for (const Manifest::Attribute& attribute : element.attributes) {
     out += "<xs:attribute name=\"" + attribute.name + "\" type=\"" + typeOf(element, attribute, types) + "\"";

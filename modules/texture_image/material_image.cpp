@@ -1,21 +1,19 @@
-// A stiffness k(x, y) that changes along the face stores E = k (d^2 + t^2) / 2 at the depth d and the tangential
-// displacement t of a finger that sticks. Its force is the slope of E: besides the spring's, -(d^2 + t^2) / 2 * grad k,
-// which pushes towards the softer side. Without it a finger could be pressed into the soft side and let go on the hard
-// one, and would gain energy in each round. While it slips, t is a matter of the depth and friction takes the energy.
+// The stiffness k(x, y) changes along the face, with the force of its stored energy
+// (framework/haptics/graded_stiffness.h).
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 
 #include "framework/haptics/face_height.h"
 #include "framework/haptics/felt_height.h"
+#include "framework/haptics/graded_stiffness.h"
 #include "modules/texture_image/image_on_face.h"
 #include "modules/texture_image/texture_image.h"
 
 namespace presa {
 namespace {
 
-constexpr double kShownForce = 1;      // [N]
-constexpr double kUsualDepth = 0.002;  // at which the force leans by at most 45 degrees [m]
+constexpr double kShownForce = 1;  // [N]
 
 class MaterialImage final : public SurfaceEffect, public FeltHeight {
  public:
@@ -24,8 +22,7 @@ class MaterialImage final : public SurfaceEffect, public FeltHeight {
         stiffness_(element.number("stiffness")),
         friction_(element.number("friction")),
         sinks_(kShownForce / material.stiffness) {
-    const double steepest = 0.5 * (1 - stiffness_) * image_.maxSlope();
-    if (steepest * kUsualDepth / 2 > stiffness_)
+    if (leansTooFar(0.5 * (1 - stiffness_) * image_.maxSlope(), stiffness_))
       throw std::invalid_argument(
           "the stiffness changes too steeply: at a depth of 2 mm the force would lean by more than 45 degrees; wider "
           "tiles, a smoother image, or a stiffness nearer to 1");
@@ -35,13 +32,7 @@ class MaterialImage final : public SurfaceEffect, public FeltHeight {
     if (stiffness_ == 1) return;
     const Here here = asked_.p_B == input.touched_B() ? asked_ : look(input);
     asked_ = {};
-    const double share = shareOf(here.s, stiffness_);
-    const double stuck = input.contact.state.slipping ? 0 : contact.tangential.squaredNorm();
-    const Vec3 aside = here.gradient - here.gradient.dot(contact.nhat) * contact.nhat;
-    const Vec3 pushed = contact.depth * contact.nhat - (contact.depth * contact.depth + stuck) / (2 * share) * aside;
-    contact.stiffness *= share;
-    contact.depth = pushed.norm();
-    if (contact.depth > 0) contact.nhat = pushed / contact.depth;
+    gradeStiffness(shareOf(here.s, stiffness_), here.gradient, input, contact);
   }
   bool changesFriction() const override { return friction_ != 1; }
   double friction(const SurfaceInput& input) noexcept override {

@@ -95,9 +95,9 @@ void FeltRelief::load() {
   }
 }
 
-double FeltRelief::heightOn(std::int32_t body, const Vec3& p_T) const {
+double FeltRelief::heightOn(std::int32_t body, const Vec3& p_T, const Pose& X_BT) const {
   double sum = 0;
-  for (const Felt& felt : felt_) sum += felt.body == body ? felt.height->heightAt(p_T) : 0;
+  for (const Felt& felt : felt_) sum += felt.body == body ? felt.height->heightAt(p_T, X_BT) : 0;
   return sum;
 }
 
@@ -116,7 +116,7 @@ void FeltRelief::add(Patch& patch, const FingerContact& finger, const Pose& X_WB
     const Vec3 p_T(ix * kCell, iy * kCell, 0);
     patch.corners->push_back(toOsg(X_WT * Vec3(p_T.x(), p_T.y(), kReliefLift)));
     patch.normals->push_back(normal);
-    patch.heights.push_back(heightOn(finger.body, p_T));
+    patch.heights.push_back(heightOn(finger.body, p_T, X_BT));
   };
   const int blocks = static_cast<int>(std::ceil(2 * kPatchRadius / kWide));
   for (int bx = first(middle_T.x()); bx <= first(middle_T.x()) + blocks; ++bx) {

@@ -26,7 +26,7 @@ class FeltRelief {
   };
   struct Patch;
   void load();
-  double heightOn(std::int32_t body, const Vec3& p_T) const;
+  double heightOn(std::int32_t body, const Vec3& p_T, const Pose& X_BT) const;
   void add(Patch& patch, const FingerContact& finger, const Pose& X_WB) const;
 
   const World& world_;

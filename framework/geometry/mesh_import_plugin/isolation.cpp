@@ -26,7 +26,8 @@ bool eachArray(RawMesh& mesh, const Visit& visit) {
   RawModel& model = mesh.model;
   return visit(mesh.problem) && visit(mesh.help) && visit(mesh.coordinates) && visit(mesh.indices) &&
          visit(model.vertices) && visit(model.corners) && visit(model.parts) && visit(model.materials) &&
-         visit(model.textures) && visit(model.text) && visit(model.missing_library);
+         visit(model.textures) && visit(model.text) && visit(model.missing_library) && visit(mesh.attributes.names) &&
+         visit(mesh.attributes.part_of) && visit(mesh.attributes.grey);
 }
 
 bool writeAll(int descriptor, const void* data, std::size_t size) {

@@ -31,6 +31,9 @@ struct OwnedMesh : ImportedMesh {
     triangle_count = raw.indices.size() / 3;
     ignored_faces = raw.ignored_faces;
     point(model, raw.model);
+    attributes.names = raw.attributes.names.data(), attributes.names_size = raw.attributes.names.size();
+    attributes.part_of = raw.attributes.part_of.data(), attributes.part_count = raw.attributes.part_of.size();
+    attributes.grey = raw.attributes.grey.data(), attributes.grey_count = raw.attributes.grey.size();
   }
   static void point(ImportedModel& to, const RawModel& from) {
     to.vertices = from.vertices.data(), to.vertex_count = from.vertices.size() / ImportedModel::kFloats;
@@ -49,7 +52,7 @@ struct OwnedMesh : ImportedMesh {
 
 extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(const char* file,
                                                                                              const char* extension,
-                                                                                             bool drawn) {
+                                                                                             presa::MeshWanted wanted) {
   std::error_code unknown;
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
@@ -57,7 +60,7 @@ extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* pre
       std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMaxMemory),
       presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
   return new presa::OwnedMesh(
-      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, drawn, out); }));
+      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, wanted, out); }));
 }
 
 extern "C" __attribute__((visibility("default"))) void presaReleaseMesh(const presa::ImportedMesh* mesh) {

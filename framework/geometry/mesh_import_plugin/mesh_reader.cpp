@@ -13,6 +13,7 @@
 #include <set>
 #include <vector>
 
+#include "framework/geometry/mesh_import_plugin/attribute_reader.h"
 #include "framework/geometry/mesh_import_plugin/equal_vertices.h"
 #include "framework/geometry/mesh_import_plugin/input_system.h"
 #include "framework/geometry/mesh_import_plugin/model_reader.h"
@@ -114,7 +115,7 @@ void turnToZUp(std::vector<double>& coordinates) {
 
 }  // namespace
 
-void readMesh(const std::string& file, const std::string& extension, bool drawn, RawMesh& out) {
+void readMesh(const std::string& file, const std::string& extension, MeshWanted wanted, RawMesh& out) {
   InputSystem files(file);
   Assimp::Importer importer;
   keepReadersOf(importer, extension);
@@ -137,7 +138,9 @@ void readMesh(const std::string& file, const std::string& extension, bool drawn,
   if (scene->mRootNode != nullptr) appendNode(*scene, *scene->mRootNode, aiMatrix4x4(), out);
   const bool z_up = extension == "dae" || extension == "gltf" || extension == "glb";
   if (z_up) turnToZUp(out.coordinates);
-  if (!drawn || !is_sound) return;
+  if (!is_sound) return;
+  if (wanted == MeshWanted::kAttributes) readAttributes(*scene, out.attributes);
+  if (wanted != MeshWanted::kModel) return;
   readModel(*scene, extension, z_up, out.model);
   out.model.missing_library = files.missingLibrary();
 }

@@ -17,6 +17,13 @@ struct RawModel {
   std::string text, missing_library;
 };
 
+/// As ImportedAttributes.
+struct RawAttributes {
+  std::string names;  ///< each ended by a zero
+  std::vector<std::int32_t> part_of;
+  std::vector<float> grey;
+};
+
 /// The triangles of a file, or the reason why it could not be read (`problem` is not empty).
 struct RawMesh {
   struct Problem {
@@ -29,10 +36,11 @@ struct RawMesh {
   std::vector<double> coordinates;
   std::vector<std::int32_t> indices;
   RawModel model;
+  RawAttributes attributes;
 };
 
-/// Reads a mesh file with assimp, `drawn`: with its model. May throw; assimp may crash or not terminate on a damaged
+/// Reads a mesh file with assimp. May throw; assimp may crash or not terminate on a damaged
 /// file, see isolation.h.
-void readMesh(const std::string& file, const std::string& extension, bool drawn, RawMesh& out);
+void readMesh(const std::string& file, const std::string& extension, MeshWanted wanted, RawMesh& out);
 
 }  // namespace presa
