@@ -11,6 +11,7 @@ namespace presa {
 /// Attributes of a mesh file, in the order of the triangles of importMesh.
 struct MeshAttributes {
   /// Names of the materials that triangles have (OBJ usemtl, glTF and COLLADA materials), in the order of the triangles.
+  /// Faces of an OBJ file before its first usemtl are of that material.
   std::vector<std::string> parts;
   std::vector<std::int32_t> part_of;  ///< by triangle: index into `parts`; -1: of no named material
   /// By triangle and corner: grey value of the vertex colour, 0 black, 1 white: 0.2126 red + 0.7152 green + 0.0722 blue

@@ -7,16 +7,20 @@
 #include "framework/haptics/surface_effects.h"
 #include "tests/support/finger_world.h"
 
-// Cost of a surface effect in a haptic tick in which a finger touches a box: the floor is 0.5 us.
+// Cost of a surface effect in a haptic tick in which a finger touches a box, or a mesh: the floor is 0.5 us.
 namespace presa {
 namespace {
 
-void effect(benchmark::State& state, const std::string& element) {
+constexpr const char* kBox = R"(<haptic><box size="0.1 0.1 0.1"/></haptic>)";
+
+/// The top of the geometry lies at z = 0.05.
+void effect(benchmark::State& state, const std::string& element, const std::string& haptic = kBox) {
   const auto world = test::fingerWorld(R"(<scene version="1.0" name="block"><world gravity="0 0 0"/>
     <materials><material name="any" stiffness="1000"><friction static="0.5"/><)" +
                                        element +
                                        R"(/></material></materials>
-    <body name="block" fixed="true"><haptic><box size="0.1 0.1 0.1"/></haptic></body>
+    <body name="block" fixed="true">)" +
+                                       haptic + R"(</body>
     <devices><device role="finger"/></devices></scene>)");
   constexpr double kRadius = 0.008;
   const auto renderer = makeRenderer(*world);
@@ -64,6 +68,13 @@ void materialImage(benchmark::State& state) {
                 "/config/textures/pads.png\" width=\"0.04\" stiffness=\"0.4\" friction=\"0.2\"");
 }
 BENCHMARK(materialImage)->Name("texture/material");
+
+/// In a triangle at the border of the inlaid pad.
+void meshMaterial(benchmark::State& state) {
+  effect(state, R"(material_part name="gel" stiffness="0.4" friction="0.2")",
+         "<haptic pos=\"-0.0135 0.0007 0.03\"><mesh file=\"" PRESA_SOURCE_DIR "/config/meshes/inlay.obj\"/></haptic>");
+}
+BENCHMARK(meshMaterial)->Name("texture/mesh_material");
 
 void perturbation(benchmark::State& state, const std::string& form) {
   effect(state, "perturbation shape=\"sine\" amplitude=\"0.0001\" wavelength=\"0.002\" form=\"" + form + "\"");
