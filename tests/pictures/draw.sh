@@ -32,7 +32,8 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     balance) args+=(--screenshot-at 13) ;; # the beam has levelled
     chain) args+=(--camera "0.45,-0.65,0.55:0,0,0.4") ;; # between the posts
     friction_torsion | layers | perturbation | texture_*) args+=(--screenshot-at 2) ;;
-    material_image | mesh_material) args+=(--screenshot-at 2 --show texture) ;;
+    material_image) args+=(--screenshot-at 2 --show texture) ;;
+    mesh_material) args+=(--screenshot-at 2.2 --show texture) ;; # on the border of the pad
     groove) args+=(--screenshot-at 3.5) ;;
     guide_path) args+=(--screenshot-at 1.17) ;;
     honey | wind) args+=(--screenshot-at 1.7) ;;
