@@ -32,6 +32,7 @@ struct Surface {
   std::string name, wavelength;
   std::vector<std::string> sets;
   Method method = ours();
+  std::string scene = "texture_loops.xml";
 };
 
 Surface texture(const std::string& shape, const std::string& amplitude, const std::string& wavelength) {
@@ -57,6 +58,9 @@ Surface materialImage() {
   return surface;
 }
 
+/// A pad of half the stiffness, by the materials of the mesh's triangles, whose cells are 5 mm wide.
+Surface meshMaterial() { return {"material by mesh", "5 mm", {}, ours(), "texture_loops_mesh.xml"}; }
+
 /// Force perturbation of a sine.
 Surface perturbation(const Method& form) {
   Surface surface{"perturbation", "2 mm", {}, form};
@@ -79,7 +83,7 @@ std::vector<Finding> stroke(const Surface& surface, bool touch_and_go, const std
   sets.push_back("rates/haptic=" + rate);
   DeviceList devices;
   devices.push_back(std::make_unique<PrescribedFinger>([=](double time) { return circle(time, touch_and_go); }));
-  StudyRun run(specOf("texture_loops.xml", std::move(sets), kRest + kLaps * kPeriod), std::move(devices));
+  StudyRun run(specOf(surface.scene, std::move(sets), kRest + kLaps * kPeriod), std::move(devices));
   double net = 0, moved = 0;
   Vec3 last_p = Vec3::Zero(), last_f = Vec3::Zero();
   Curve gained{"energy that the finger has gained", {}, {}};
@@ -117,7 +121,7 @@ Case make() {
   result.scene = "texture_loops.xml";
   for (const Surface& surface :
        {texture("sine", "0.0001", "0.002"), texture("sine", "0.0001", "0.001"), texture("grid", "0.0001", "0.002"),
-        texture("noise", "0.0002", "0.002"), image(), materialImage(), overLayers({"", kNone, {}}),
+        texture("noise", "0.0002", "0.002"), image(), materialImage(), meshMaterial(), overLayers({"", kNone, {}}),
         overLayers(texture("sine", "0.0001", "0.002")), perturbation(ours()),
         perturbation({"printed formula", {"material/stone/perturbation/form=printed"}})}) {
     for (const bool touch_and_go : {false, true}) {
