@@ -168,6 +168,22 @@ TEST_F(Manifests, OfSurfaceEffectsBelongToABodyAMaterialOrTheScene) {
   EXPECT_EQ(errors(), "595 <wind> of the surface effect 'wind' cannot stand in=\"haptics\"\n");
 }
 
+// Their names tell them apart, and a path leads to each by its name.
+TEST_F(Manifests, OfMaterialsMayStandSeveralTimesIfTheyHaveAName) {
+  const auto schema = [&](const std::string& attribute) {
+    write("presa_wind.xml",
+          "<plugin name=\"wind\" version=\"1.0\" kind=\"surface_effect\" about=\"a test\"><element name=\"wind\" "
+          "in=\"material\"><attribute type=\"text\" about=\"a test\" " +
+              attribute + "/></element></plugin>");
+    Diagnostics diagnostics;
+    return sceneSchemaWith(readManifests({folder_.path().string()}, diagnostics));
+  };
+  const std::string once = "<xs:element name=\"wind\" p:implied=\"false\" minOccurs=\"0\" p:occurs=\"0..1\">";
+  EXPECT_EQ(schema("name=\"name\"").find(once), std::string::npos);
+  EXPECT_NE(schema("name=\"name\" default=\"\"").find(once), std::string::npos);
+  EXPECT_NE(schema("name=\"from\"").find(once), std::string::npos);
+}
+
 TEST_F(Manifests, OnlyOfRenderersGiveAProxy) {
   write("presa_wind.xml",
         "<plugin name=\"wind\" version=\"1.0\" kind=\"friction_law\" gives=\"proxy\" about=\"a test\"/>");

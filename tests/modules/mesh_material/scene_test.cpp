@@ -62,6 +62,16 @@ TEST(BadMeshMaterial, IsRefused) {
   }
 }
 
+// One material has one law of colours; parts are told apart by their names.
+TEST(BadMeshMaterial, OfTwoColoursIsRefused) {
+  try {
+    meshWorld("", "<material_colour/><material_colour/>", "", "", R"(<box size="0.1 0.1 0.1"/>)");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().text().find("error[E112]"), std::string::npos) << error.diagnostics().text();
+  }
+}
+
 // The steepest triangle has half of 1 - s over a cell of 5 mm, between a vertex of s and one of (1 + s) / 2: it leans by
 // 45 degrees at 2 mm if 0.001 (1 - s) / 2 / w = s.
 TEST(BadMeshMaterial, IsAsSteepAs45DegreesAtTwoMillimetres) {
