@@ -120,6 +120,17 @@ std::vector<ConvexSolid> convexBodies(const World& world, const PartSettings& se
   return solids;
 }
 
+std::vector<ConvexSolid> convexShapes(const World& world) {
+  std::vector<ConvexSolid> solids;
+  for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
+    const std::optional<Geometry>& haptic = world.scene.bodies[b].haptic;
+    std::optional<Hull> hull = haptic ? hullOf(haptic->shape) : std::nullopt;
+    if (hull)
+      solids.push_back({.body = static_cast<std::int32_t>(b), .parts = {partOf(*std::move(hull), haptic->X_BG)}});
+  }
+  return solids;
+}
+
 // World::tools has the mesh in T already.
 ConvexSolid convexTool(const World& world, std::size_t role, const PartSettings& settings) {
   const DeviceRole& device = world.scene.devices[role];

@@ -37,6 +37,8 @@ PartSettings partSettings(const PluginElement& settings);
 /// The touchable bodies of a world. A cut that took long is kept in the user's cache. Throws std::invalid_argument for a
 /// mesh that is open. Thread: before a run.
 std::vector<ConvexSolid> convexBodies(const World& world, const PartSettings& settings);
+/// The touchable bodies that are no meshes; each is one part, exactly. Thread: before a run.
+std::vector<ConvexSolid> convexShapes(const World& world);
 /// The tool of a device role, in the frame T of the handle; the same errors.
 ConvexSolid convexTool(const World& world, std::size_t role, const PartSettings& settings);
 

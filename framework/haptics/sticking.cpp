@@ -8,26 +8,26 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of the limit of friction
 
-Vec3 along(const CursorContact& contact, const Vec3& v) noexcept { return v - v.dot(contact.nhat) * contact.nhat; }
+Vec3 along(const PressedPoint& contact, const Vec3& v) noexcept { return v - v.dot(contact.nhat) * contact.nhat; }
 
 /// Way of the point along the surface in the step.
-Vec3 slip(const CursorContact& contact, const Vec6& u) noexcept {
+Vec3 slip(const PressedPoint& contact, const Vec6& u) noexcept {
   return along(contact, u.head<3>() + Vec3(u.tail<3>()).cross(contact.p));
 }
 
 }  // namespace
 
-const Sticking::Anchor* Sticking::anchorOf(const CursorContact& contact) const noexcept {
+const Sticking::Anchor* Sticking::anchorOf(const PressedPoint& contact) const noexcept {
   const auto* found =
       std::find_if(anchors_.begin(), anchors_.end(), [&](const Anchor& one) { return one.pair == contact.pair; });
   return found == anchors_.end() ? nullptr : found;
 }
 
-Sticking::Anchor* Sticking::anchorOf(const CursorContact& contact) noexcept {
+Sticking::Anchor* Sticking::anchorOf(const PressedPoint& contact) noexcept {
   return const_cast<Anchor*>(std::as_const(*this).anchorOf(contact));
 }
 
-bool Sticking::slides(const CursorContact& contact) const noexcept {
+bool Sticking::slides(const PressedPoint& contact) const noexcept {
   const Anchor* anchor = anchorOf(contact);
   return anchor != nullptr && anchor->slides;
 }
@@ -39,18 +39,18 @@ void Sticking::begin() noexcept {
   }
 }
 
-Vec3 Sticking::stretchOf(const CursorContact& contact, const Anchor& anchor, const CursorPoses& poses) noexcept {
+Vec3 Sticking::stretchOf(const PressedPoint& contact, const Anchor& anchor, const StepPoses& poses) noexcept {
   const Vec3 p_T = poses.X_WT.q.conjugate() * contact.p;
   const Vec3 held_W = poses.X_WB[contact.solid] * (anchor.X_BT * p_T);
   return along(contact, poses.X_WT.p + contact.p - held_W);
 }
 
-void Sticking::addTo(ContactProblem& problem, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept {
+void Sticking::addTo(ContactProblem& problem, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept {
   for (Anchor& anchor : anchors_) anchor.pressure = 0;
-  for (const CursorContact& one : contacts) {
+  for (const PressedPoint& one : contacts) {
     if (Anchor* anchor = anchorOf(one)) anchor->pressure += one.force;
   }
-  for (CursorContact& one : contacts) {
+  for (PressedPoint& one : contacts) {
     one.hold = 0;
     const Anchor* anchor = anchorOf(one);
     if (anchor == nullptr || !(one.force > 0)) continue;
@@ -58,6 +58,7 @@ void Sticking::addTo(ContactProblem& problem, const CursorPoses& poses, BoundedL
     if (!anchor->slides) {
       one.hold = stiffness_ * one.force / anchor->pressure;
       force = -one.hold * stretchOf(one, *anchor, poses);
+      problem.inverse = nullptr;
       addStiffness(one.hold * (Mat3::Identity() - one.nhat * one.nhat.transpose()), one.p, problem.Q);
     }
     problem.r.head<3>() += force;
@@ -65,9 +66,18 @@ void Sticking::addTo(ContactProblem& problem, const CursorPoses& poses, BoundedL
   }
 }
 
-bool Sticking::update(const Vec6& u, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept {
+void Sticking::slide(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) const noexcept {
+  for (PressedPoint& one : contacts) {
+    const Anchor* anchor = anchorOf(one);
+    if (anchor == nullptr || !anchor->slides || !(one.force > 0)) continue;
+    const Vec3 stretch = stretchOf(one, *anchor, poses) + slip(one, u);
+    if (stretch.norm() > 0) one.friction = -friction_[one.solid].mu_dynamic * one.force * stretch.normalized();
+  }
+}
+
+bool Sticking::update(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept {
   for (Anchor& anchor : anchors_) anchor.pressure = anchor.limit = anchor.wanted = anchor.stretched = 0;
-  for (CursorContact& one : contacts) {
+  for (PressedPoint& one : contacts) {
     one.friction = Vec3::Zero();
     Anchor* anchor = anchorOf(one);
     if (anchor == nullptr || !(one.force > 0)) continue;
@@ -87,7 +97,7 @@ bool Sticking::update(const Vec6& u, const CursorPoses& poses, BoundedList<Curso
     as_thought = false;
   }
   if (as_thought) return true;
-  for (CursorContact& one : contacts) {
+  for (PressedPoint& one : contacts) {
     const Anchor* anchor = anchorOf(one);
     if (anchor == nullptr || !anchor->slides || !(one.friction.norm() > 0)) continue;
     one.friction *= friction_[one.solid].mu_dynamic * one.force / one.friction.norm();
@@ -95,7 +105,7 @@ bool Sticking::update(const Vec6& u, const CursorPoses& poses, BoundedList<Curso
   return false;
 }
 
-void Sticking::keep(const Pose& X_WT, const CursorPoses& poses, const BoundedList<CursorContact>& contacts) noexcept {
+void Sticking::keep(const Pose& X_WT, const StepPoses& poses, const BoundedList<PressedPoint>& contacts) noexcept {
   for (Anchor& anchor : anchors_) {
     if (!anchor.slides) continue;
     // the anchor follows at the distance at which the spring of friction has its dynamic limit
@@ -107,10 +117,24 @@ void Sticking::keep(const Pose& X_WT, const CursorPoses& poses, const BoundedLis
   for (std::size_t i = anchors_.size(); i-- > 0;) {
     if (!(anchors_[i].pressure > 0)) anchors_.remove(i);
   }
-  for (const CursorContact& one : contacts) {
+  for (const PressedPoint& one : contacts) {
     if (!(one.force > 0) || anchorOf(one) != nullptr) continue;
     anchors_.add({one.pair, one.solid, poses.X_WB[one.solid].inverse() * X_WT, false, false, one.force});
   }
+}
+
+bool solveWithFriction(const ContactProblem& without, const StepPoses& poses, Sticking& sticking,
+                       BoundedList<PressedPoint>& contacts, Vec6& u) noexcept {
+  constexpr int kRounds = 8;  // in which pairs that hold turn out to slide
+  bool exact = solveContacts(without, contacts, u).exact, as_thought = false;
+  sticking.slide(u, poses, contacts);
+  for (int round = 0; round < kRounds && !as_thought; ++round) {
+    ContactProblem problem = without;
+    sticking.addTo(problem, poses, contacts);
+    exact = solveContacts(problem, contacts, u).exact && exact;
+    as_thought = sticking.update(u, poses, contacts);
+  }
+  return exact && as_thought;
 }
 
 }  // namespace presa

@@ -2,13 +2,13 @@
 #include <vector>
 
 #include "framework/core/exchange/bounded_list.h"
-#include "framework/scene/scene.h"
 #include "framework/haptics/contact_lcp.h"
+#include "framework/scene/scene.h"
 
 namespace presa {
 
 /// Where tool and bodies are in a step.
-struct CursorPoses {
+struct StepPoses {
   const Pose& X_WT;               ///< of the tool, before the step
   const std::vector<Pose>& X_WB;  ///< of the bodies, by solid
 };
@@ -27,13 +27,15 @@ class Sticking {
   /// Begins a step: every pair is thought to hold.
   void begin() noexcept;
   /// Adds friction to the problem, for the forces of `contacts`: a spring where it holds, a force where it slides.
-  void addTo(ContactProblem& problem, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept;
+  void addTo(ContactProblem& problem, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept;
+  /// Friction of the contacts of pairs that were found to slide in this step, for their forces and the step u.
+  void slide(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) const noexcept;
   /// Finds the friction of all contacts after the step u. False: a pair slides that was thought to hold.
-  bool update(const Vec6& u, const CursorPoses& poses, BoundedList<CursorContact>& contacts) noexcept;
+  bool update(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept;
   /// Ends the step, with the tool at X_WT: friction holds what touches there, and follows what slides.
-  void keep(const Pose& X_WT, const CursorPoses& poses, const BoundedList<CursorContact>& contacts) noexcept;
-  bool slides(const CursorContact& contact) const noexcept;  ///< in this step
-  void letGo() noexcept { anchors_.clear(); }                ///< the tool touches nothing
+  void keep(const Pose& X_WT, const StepPoses& poses, const BoundedList<PressedPoint>& contacts) noexcept;
+  bool slides(const PressedPoint& contact) const noexcept;  ///< in this step
+  void letGo() noexcept { anchors_.clear(); }               ///< the tool touches nothing
 
  private:
   struct Anchor {
@@ -43,14 +45,20 @@ class Sticking {
     double pressure = 0, limit = 0, wanted = 0;  // of its contacts: force, friction at most, friction to hold [N]
     double stretched = 0;                        // sum of forces times stretches [N m]
   };
-  const Anchor* anchorOf(const CursorContact& contact) const noexcept;
-  Anchor* anchorOf(const CursorContact& contact) noexcept;
+  const Anchor* anchorOf(const PressedPoint& contact) const noexcept;
+  Anchor* anchorOf(const PressedPoint& contact) noexcept;
   /// Before the step.
-  static Vec3 stretchOf(const CursorContact& contact, const Anchor& anchor, const CursorPoses& poses) noexcept;
+  static Vec3 stretchOf(const PressedPoint& contact, const Anchor& anchor, const StepPoses& poses) noexcept;
 
   double stiffness_;
   const std::vector<FrictionCoefficients>& friction_;
   BoundedList<Anchor> anchors_;
 };
+
+/// Solves the step with friction: frictionless first, then for those pressures, until every pair holds or slides as was
+/// thought. `without`: the problem without friction. `u`: as in solveContacts(). True: the problem was solved exactly, with
+/// friction that fits it. Thread: haptic; nonblocking.
+bool solveWithFriction(const ContactProblem& without, const StepPoses& poses, Sticking& sticking,
+                       BoundedList<PressedPoint>& contacts, Vec6& u) noexcept;
 
 }  // namespace presa

@@ -11,7 +11,6 @@ namespace {
 constexpr double kMaxStep = 0.004;  // motion of a point in a tick: 4 m/s [m]
 constexpr double kAhead = 1e-4;     // contacts are found this far beyond the motion that the handle wants [m]
 constexpr int kLooks = 2;           // for contacts in a tick
-constexpr int kRounds = 8;          // in which pairs that hold turn out to slide
 
 Mat3 crossMatrix(const Vec3& v) noexcept {
   Mat3 m;
@@ -51,14 +50,6 @@ Mat6 Cursor::massAt(const Quat& q_WT) const noexcept {
   return mass;
 }
 
-// The deepest ones find room.
-void Cursor::list(const CursorContact& contact) noexcept {
-  if (contacts_.add(contact) != nullptr) return;
-  CursorContact* highest = std::max_element(
-      contacts_.begin(), contacts_.end(), [](const CursorContact& a, const CursorContact& b) { return a.gap < b.gap; });
-  if (contact.gap < highest->gap) *highest = contact;
-}
-
 bool Cursor::findContacts(const Pose& X_WT, double margin) noexcept {
   contacts_.clear();
   const bool whole = pairs_.gather(X_WT, margin);
@@ -69,26 +60,15 @@ bool Cursor::findContacts(const Pose& X_WT, double margin) noexcept {
     pairs_.touch(pair, margin, manifold);
     for (int i = 0; i < manifold.count; ++i) {
       const Manifold::Point& point = manifold.points[static_cast<std::size_t>(i)];
-      list({.p = point.p_W - X_WT.p,
-            .nhat = pair.nhat_W,
-            .gap = point.gap,
-            .pair = static_cast<std::uint32_t>(pairs_.indexOf(pair)),
-            .solid = pair.solid});
+      addDeepest({.p = point.p_W - X_WT.p,
+                  .nhat = pair.nhat_W,
+                  .gap = point.gap,
+                  .pair = static_cast<std::uint32_t>(pairs_.indexOf(pair)),
+                  .solid = pair.solid},
+                 contacts_);
     }
   }
   return whole && contacts_.lost() == 0;
-}
-
-// Frictionless first; then with friction for those pressures, until every pair holds or slides as was thought.
-bool Cursor::solve(const ContactProblem& without, const CursorPoses& poses, Vec6& u) noexcept {
-  bool exact = solveContacts(without, contacts_, u).exact, as_thought = false;
-  for (int round = 0; round < kRounds && !as_thought; ++round) {
-    ContactProblem problem = without;
-    sticking_.addTo(problem, poses, contacts_);
-    exact = solveContacts(problem, contacts_, u).exact && exact;
-    as_thought = sticking_.update(u, poses, contacts_);
-  }
-  return exact && as_thought;
 }
 
 Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB, Pose& X_WT) noexcept {
@@ -98,7 +78,7 @@ Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB,
   const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, -h * handle, h);
   const Mat6 mass = massAt(X_WT.q);
   const ContactProblem problem{mass / (h * h) + force.stiffness, mass * v_ / h + force.wrench, law_.stiffness};
-  const CursorPoses poses{X_WT, X_WB};
+  const StepPoses poses{X_WT, X_WB};
   pairs_.place(input.touchables);
   sticking_.begin();
   Vec6 u = problem.Q.ldlt().solve(problem.r);
@@ -117,7 +97,7 @@ Cursor::Step Cursor::step(const ToolInput& input, const std::vector<Pose>& X_WB,
 
 // Contacts are found as far as the handle wants to move the tool; where they move it farther themselves, as a body does that
 // comes towards it, once more as far as that.
-Cursor::Step Cursor::meet(const ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept {
+Cursor::Step Cursor::meet(const ContactProblem& problem, const StepPoses& poses, Vec6& u) noexcept {
   const auto wayOf = [&](const Vec6& step) { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); };
   Step result;
   double reach = wayOf(u) + kAhead;
@@ -125,7 +105,7 @@ Cursor::Step Cursor::meet(const ContactProblem& problem, const CursorPoses& pose
     contacts_.clear();
     if (pairs_.clearance(poses.X_WT) < reach) result.whole = findContacts(poses.X_WT, reach);
     if (contacts_.empty()) return result;
-    result.exact = solve(problem, poses, u);
+    result.exact = solveWithFriction(problem, poses, sticking_, contacts_, u);
     if (wayOf(u) <= reach) break;
     reach = wayOf(u) + kAhead;
   }

@@ -2,9 +2,9 @@
 #include <vector>
 
 #include "framework/haptics/convex_pairs.h"
+#include "framework/haptics/sticking.h"
 #include "framework/haptics/tool_renderer.h"
 #include "framework/haptics/virtual_coupling.h"
-#include "framework/haptics/sticking.h"
 
 namespace presa {
 
@@ -34,8 +34,8 @@ class Cursor {
   /// Starts anew at rest, touching nothing.
   void reset() noexcept;
 
-  const BoundedList<CursorContact>& contacts() const noexcept { return contacts_; }  ///< after the step
-  const Sticking& sticking() const noexcept { return sticking_; }                    ///< after the step
+  const BoundedList<PressedPoint>& contacts() const noexcept { return contacts_; }  ///< after the step
+  const Sticking& sticking() const noexcept { return sticking_; }                   ///< after the step
   /// Wrench of the handle on the tool about the tool's origin, after the step.
   const Vec6& ofHandle() const noexcept { return of_handle_; }
   double radius() const noexcept { return radius_; }  ///< of the ball around the tool's origin [m]
@@ -43,11 +43,8 @@ class Cursor {
  private:
   Mat6 massAt(const Quat& q_WT) const noexcept;
   bool findContacts(const Pose& X_WT, double margin) noexcept;
-  void list(const CursorContact& contact) noexcept;
-  /// Whether the contact problem was solved exactly, with friction that fits it.
-  bool solve(const ContactProblem& without, const CursorPoses& poses, Vec6& u) noexcept;
   /// The step that the bodies allow, of one that the handle wants.
-  Step meet(const ContactProblem& problem, const CursorPoses& poses, Vec6& u) noexcept;
+  Step meet(const ContactProblem& problem, const StepPoses& poses, Vec6& u) noexcept;
 
   const ConvexSolid& tool_;
   const ToolCoupling& coupling_;
@@ -56,7 +53,7 @@ class Cursor {
   double radius_ = 0;
   Vec3 p_TCm_ = Vec3::Zero();      // centre of mass
   Mat3 inertia_T_ = Mat3::Zero();  // about the tool's origin [kg m^2]
-  BoundedList<CursorContact> contacts_;
+  BoundedList<PressedPoint> contacts_;
   Sticking sticking_;
   Vec6 v_ = Vec6::Zero();  // velocity of the tool's origin, and angular velocity, in W
   Vec6 of_handle_ = Vec6::Zero();

@@ -5,15 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "framework/haptics/balanced_forces.h"
 #include "framework/haptics/tool_renderer.h"
+#include "framework/haptics/touched_solids.h"
 #include "modules/light_cursor/cursor.h"
 
 namespace presa {
 namespace {
 
-constexpr int kBounce = 10;        // ticks without contact after which the hand feels nothing
-constexpr double kMaxSqueeze = 4;  // of a body, in relation to what the handle can press with all its levers
+constexpr int kBounce = 10;  // ticks without contact after which the hand feels nothing
+
+std::vector<std::int32_t> bodiesOf(const std::vector<ConvexSolid>& solids) {
+  std::vector<std::int32_t> bodies;
+  for (const ConvexSolid& solid : solids) bodies.push_back(solid.body);
+  return bodies;
+}
 
 class LightCursor final : public ToolRenderer {
  public:
@@ -23,23 +28,18 @@ class LightCursor final : public ToolRenderer {
   std::string what() const override;
 
  private:
-  void place(const ToolInput& input) noexcept;
   /// One tool of the scene.
   struct Held {
     Cursor cursor;
     int bounce = kBounce;  // ticks since the last one with contacts
   };
-  /// The contacts of this tick; false: there are none.
-  bool list(const ToolCoupling& coupling, const Cursor& cursor, BoundedList<ToolForce>& forces) noexcept;
   void write(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces, ToolState& state) noexcept;
 
   const Scene& scene_;
   CursorLaw law_;
   std::vector<ConvexSolid> bodies_, tools_;
-  std::vector<Pose> X_WB_;                      // by body of bodies_
-  std::vector<FrictionCoefficients> friction_;  // the same
-  std::vector<double> pressure_;                // the same: sum of the forces on it [N]
-  std::vector<std::unique_ptr<Held>> held_;     // by device role; null: a fingertip
+  TouchedSolids solids_;                     // as bodies_
+  std::vector<std::unique_ptr<Held>> held_;  // by device role; null: a fingertip
 };
 
 LightCursor::LightCursor(const PluginElement& settings, const World& world)
@@ -48,78 +48,44 @@ LightCursor::LightCursor(const PluginElement& settings, const World& world)
            static_cast<std::size_t>(settings.number("max_contacts"))},
       bodies_(convexBodies(world, partSettings(settings))),
       tools_(scene_.devices.size()),
-      X_WB_(bodies_.size()),
-      friction_(bodies_.size()),
-      pressure_(bodies_.size()) {
+      solids_(scene_, bodiesOf(bodies_)) {
   for (std::size_t d = 0; d < scene_.devices.size(); ++d) {
     held_.push_back(nullptr);
     if (!world.tools[d]) continue;
     tools_[d] = convexTool(world, d, partSettings(settings));
-    const Cursor cursor(tools_[d], bodies_, friction_, scene_.devices[d].tool->coupling,
+    const Cursor cursor(tools_[d], bodies_, solids_.friction(), scene_.devices[d].tool->coupling,
                         massProperties(*world.tools[d]), law_);
     held_.back() = std::make_unique<Held>(Held{cursor});
   }
 }
 
-void LightCursor::place(const ToolInput& input) noexcept {
-  for (std::size_t s = 0; s < bodies_.size(); ++s) {
-    const auto body = static_cast<std::size_t>(bodies_[s].body);
-    const Material& material = input.materials[scene_.bodies[body].material];
-    X_WB_[s] = input.touchables.frameOf(bodies_[s].body);
-    friction_[s] = {material.friction_static, material.friction_dynamic};
-  }
-}
-
 void LightCursor::touch(const ToolInput& input, BoundedList<ToolForce>& forces, ToolState& state) noexcept {
   Held& held = *held_[input.tool];
-  place(input);
+  solids_.place(input);
   if (!state.alive) {
     held.cursor.reset();
     held.bounce = kBounce;
   }
-  const Cursor::Step step = held.cursor.step(input, X_WB_, state.X_WT);
+  const Cursor::Step step = held.cursor.step(input, solids_.X_WB(), state.X_WT);
   write(input, held, forces, state);
   state.points = static_cast<std::uint32_t>(forces.size());
   state.coarse += step.whole ? 0 : 1;
   state.late += step.exact ? 0 : 1;
   state.depth = 0;
-  for (const CursorContact& one : held.cursor.contacts())
+  for (const PressedPoint& one : held.cursor.contacts())
     state.depth = std::max(state.depth, one.force / law_.stiffness);
-}
-
-bool LightCursor::list(const ToolCoupling& coupling, const Cursor& cursor, BoundedList<ToolForce>& forces) noexcept {
-  std::fill(pressure_.begin(), pressure_.end(), 0.0);
-  double sum = 0;
-  for (const CursorContact& one : cursor.contacts()) {
-    pressure_[one.solid] += one.force;
-    sum += one.force;
-  }
-  if (!(sum > 0)) return false;
-  const double most = kMaxSqueeze * (coupling.max_force + coupling.max_torque / cursor.radius());
-  const double stiffness = coupling.stiffness * law_.stiffness / (coupling.stiffness + law_.stiffness);
-  for (const CursorContact& one : cursor.contacts()) {
-    if (!(one.force > 0)) continue;
-    const double scale = std::min(1.0, most / pressure_[one.solid]);
-    forces.add({.body = bodies_[one.solid].body,
-                .p_W = one.p,
-                .nhat_W = one.nhat,
-                .f_W = scale * (one.force * one.nhat + one.friction),
-                .stiffness = stiffness * one.force / sum,
-                .friction_static = friction_[one.solid].mu_static,
-                .friction_dynamic = friction_[one.solid].mu_dynamic,
-                .slips = cursor.sticking().slides(one)});
-  }
-  return true;
 }
 
 // The hand feels the spring of the handle, and the forces on the bodies add up to it. Where a jam comes free, so light a
 // tool bounces for some ticks, while that spring is still tight: then it accelerates the tool alone.
 void LightCursor::write(const ToolInput& input, Held& held, BoundedList<ToolForce>& forces, ToolState& state) noexcept {
   const Vec6& of_handle = held.cursor.ofHandle();
-  const bool touches = list(scene_.devices[input.tool].tool->coupling, held.cursor, forces);
+  const ToolCoupling& coupling = scene_.devices[input.tool].tool->coupling;
+  const Cursor& cursor = held.cursor;
+  const bool touches = solids_.list({coupling, cursor.contacts(), cursor.sticking(), law_.stiffness, cursor.radius()},
+                                    of_handle, forces);
   held.bounce = touches ? 0 : std::min(kBounce, held.bounce + 1);
   if (touches) {
-    balanceForces(forces, -of_handle);
     for (ToolForce& one : forces) one.p_W += state.X_WT.p;
   } else if (held.bounce < kBounce) {
     const double part = 1 - static_cast<double>(held.bounce) / kBounce;

@@ -187,6 +187,12 @@ std::unique_ptr<Rig> renderedSphere(const std::string& renderer, int triangles) 
   return std::make_unique<Rig>(worldOf({{.mesh = sphereMesh(triangles)}}, kRadius, 1, renderer), aroundSphere(kRadius));
 }
 
+/// A line of 1 mm radius lies along the way of the hand; beside it the god-object with a fingertip of the same radius.
+std::unique_ptr<Rig> lineOnSphere(int triangles) {
+  constexpr double kRadius = 1e-3;
+  return std::make_unique<Rig>(worldOfLine({{.mesh = sphereMesh(triangles)}}, kRadius, "ray"), aroundSphere(kRadius));
+}
+
 using Measure = void (*)(benchmark::State&, const std::string&, const MakeRig&);
 void add(const std::string& name, Measure measure, const MakeRig& make) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
@@ -207,6 +213,7 @@ const bool kProxyRegistered = [] {
     for (const std::string renderer : {"god_object", "scp", "fca_mesh", "penalty", "intermediate"}) {
       add("renderer/" + renderer + "/" + sphere, hapticTick, [=] { return renderedSphere(renderer, n); });
     }
+    add("renderer/ray/" + sphere, hapticTick, [=] { return lineOnSphere(n); });
     add("patch_gather/" + sphere, collisionStep, [=] { return sphereRig(n, 8e-3, false); });
   }
   add("proxy_tick/sphere_327680/r8mm/two_fingers", hapticTick, [] { return sphereRig(327'680, 8e-3, false, 2); });

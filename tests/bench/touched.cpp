@@ -55,8 +55,10 @@ std::shared_ptr<const TriMesh> sphereMesh(int triangles, bool bumpy) {
   return made;
 }
 
-std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers,
-                                     const std::string& renderer) {
+namespace {
+
+std::shared_ptr<World> makeWorldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers,
+                                   const std::string& renderer) {
   auto world = std::make_shared<World>();
   world->scene.haptics.renderer = renderer;
   world->scene.haptics.proxy = findManifest(renderer)->hasProxy();
@@ -81,6 +83,24 @@ std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double 
     role.fingertip_radius = fingertip_radius;
     world->scene.devices.push_back(role);
   }
+  world->tools.resize(world->scene.devices.size());
+  return world;
+}
+
+}  // namespace
+
+std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers,
+                                     const std::string& renderer) {
+  return makeWorldOf(bodies, fingertip_radius, fingers, renderer);
+}
+
+std::shared_ptr<const World> worldOfLine(const std::vector<Touched>& bodies, double radius,
+                                         const std::string& renderer) {
+  constexpr double kLength = 0.1;
+  auto world = makeWorldOf(bodies, radius, 1, kDefaultRenderer);
+  world->scene.haptics.tool_renderer = renderer;
+  world->scene.devices[0].tool = Tool{Geometry{Capsule{radius, kLength}, {}, {}}, {}};
+  world->tools[0] = std::make_shared<const TriMesh>(makeCapsule(radius, kLength));
   return world;
 }
 
@@ -200,7 +220,10 @@ void Rig::fillPass() {
     for (std::size_t f = 0; f < fingers; ++f) {
       const Vec3 p_WH = X_WB * motion_.p_BH(f, static_cast<std::size_t>((place + lap) % lap), above);
       const Vec3 way = held_.size() < fingers ? Vec3::Zero() : Vec3(p_WH - held_[held_.size() - fingers].p_WH);
-      held_.push_back({p_WH, way / 1e-3});
+      // a line lies along the way, square to the radius
+      const Vec3 along = way - way.dot(p_WH) / p_WH.squaredNorm() * p_WH;
+      const Quat q_WH = along.norm() > 0 ? Quat(Quat::FromTwoVectors(Vec3::UnitZ(), along)) : Quat(Quat::Identity());
+      held_.push_back({p_WH, way / 1e-3, q_WH});
     }
   }
 }
@@ -240,6 +263,8 @@ void Rig::moveFingers(std::ptrdiff_t tick) noexcept {
     const Held& held = held_[static_cast<std::size_t>(tick + kLead) * fingers + f];
     device.fingers[f].p_WH = held.p_WH;
     device.fingers[f].v_WH = held.v_WH;
+    device.fingers[f].oriented = true;
+    device.fingers[f].q_WT = held.q_WH;
   }
 }
 

@@ -32,6 +32,10 @@ struct Touched {
 std::shared_ptr<const World> worldOf(const std::vector<Touched>& bodies, double fingertip_radius, int fingers = 1,
                                      const std::string& renderer = "god_object");
 
+/// As worldOf() one finger, but the hand holds a line of 100 mm and this radius, which `renderer` renders.
+std::shared_ptr<const World> worldOfLine(const std::vector<Touched>& bodies, double radius,
+                                         const std::string& renderer);
+
 /// A smooth closed path around the unit sphere, up and down, that never comes close to itself: one point per haptic
 /// tick at constant speed, which is kSpeed on a sphere of this radius [m]. Its length is a whole number of collision
 /// periods.
@@ -85,6 +89,7 @@ class Rig {
   Watcher* watcher_ = nullptr;
   struct Held {
     Vec3 p_WH, v_WH;
+    Quat q_WH;
   };
   std::vector<Held> held_;  ///< every finger's state, tick by tick of a pass
   bool fresh_ = true;

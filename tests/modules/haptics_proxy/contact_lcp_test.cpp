@@ -9,7 +9,7 @@
 namespace presa::contact_lcp_test {
 namespace {
 
-Vec6 rowOf(const CursorContact& one) {
+Vec6 rowOf(const PressedPoint& one) {
   Vec6 row;
   row << one.nhat, one.p.cross(one.nhat);
   return row;
@@ -38,9 +38,9 @@ ContactProblem problemOf(Random& random) {
   return problem;
 }
 
-void expectSolved(const ContactProblem& problem, const BoundedList<CursorContact>& contacts, const Vec6& u, int trial) {
+void expectSolved(const ContactProblem& problem, const BoundedList<PressedPoint>& contacts, const Vec6& u, int trial) {
   Vec6 left = problem.Q * u - problem.r;
-  for (const CursorContact& one : contacts) {
+  for (const PressedPoint& one : contacts) {
     left -= one.force * rowOf(one);
     const double slack = rowOf(one).dot(u) + one.gap + one.force / problem.k;
     EXPECT_GE(one.force, 0) << trial;
@@ -55,7 +55,7 @@ TEST(ContactLcp, SolvesRandomProblemsExactly) {
   int most = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const ContactProblem problem = problemOf(random);
-    BoundedList<CursorContact> contacts(40);
+    BoundedList<PressedPoint> contacts(40);
     for (int i = 0; i < trial % 41; ++i)
       contacts.add(
           {.p = random.inCube(0.05), .nhat = random.inCube(1).normalized(), .gap = random.between(-0.001, 0.003)});
@@ -70,7 +70,7 @@ TEST(ContactLcp, SolvesRandomProblemsExactly) {
 
 // Many points on one face bear alike: the problem has one solution even where a rigid one has many.
 TEST(ContactLcp, FourCornersOfAFaceBearAlike) {
-  BoundedList<CursorContact> contacts(8);
+  BoundedList<PressedPoint> contacts(8);
   for (const double x : {-0.02, 0.02}) {
     for (const double y : {-0.02, 0.02}) contacts.add({.p = {x, y, -0.01}, .nhat = Vec3::UnitZ(), .gap = 0});
   }
@@ -80,7 +80,7 @@ TEST(ContactLcp, FourCornersOfAFaceBearAlike) {
   problem.k = 200000;
   Vec6 u = Vec6::Zero();
   EXPECT_TRUE(solveContacts(problem, contacts, u).exact);
-  for (const CursorContact& one : contacts) EXPECT_NEAR(one.force, 0.5 * 800000 / 801000, 1e-9);
+  for (const PressedPoint& one : contacts) EXPECT_NEAR(one.force, 0.5 * 800000 / 801000, 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,146 @@
+// The ray is where the energy of the handle's springs is least among the poses that the bodies allow. Its distance from a
+// body is taken as linear around a pose, the contact problem gives a better pose, and the distances are found there again:
+// Newton's method on the exact gaps of the few triangles that hold it. Within a step no point of the axis moves farther
+// than the axis was from everything at its beginning, so that it cannot come past a surface, however thin.
+#include "modules/ray/ray_proxy.h"
+
+#include <algorithm>
+
+namespace presa {
+namespace {
+
+constexpr double kFarthest = 0.004;  // way of a point in a part of a tick [m]
+constexpr double kSafe = 0.9;        // of the clearance, which a part of a tick uses at most
+constexpr double kAhead = 2e-5;      // places are looked for this far beyond the way [m]
+constexpr double kSettled = 2e-6;    // change of the pose at which the looks end [m]
+constexpr int kParts = 4;            // of a tick
+constexpr int kLooks = 12;           // in a part
+
+/// The handle resists motion and turn apart from each other.
+Mat6 inverseOf(const Mat6& stiffness) noexcept {
+  Mat6 inverse = Mat6::Zero();
+  inverse.topLeftCorner<3, 3>() = stiffness.topLeftCorner<3, 3>().inverse();
+  inverse.bottomRightCorner<3, 3>() = stiffness.bottomRightCorner<3, 3>().inverse();
+  return inverse;
+}
+
+}  // namespace
+
+RayProxy::RayProxy(const Ray& ray, const ConvexSolid& tool, const RayBodies& bodies, const TouchedSolids& solids,
+                   const ToolCoupling& coupling, double stiffness)
+    : solids_(solids),
+      coupling_(coupling),
+      near_(ray, tool, bodies),
+      stiffness_(stiffness),
+      radius_(std::max(ray.axis_T.a.norm(), ray.axis_T.b.norm()) + ray.radius),
+      points_(kMaxPoints),
+      sticking_(stiffness, solids.friction(), solids.friction().size()) {}
+
+void RayProxy::reset() noexcept {
+  of_handle_.setZero();
+  expected_.setZero();
+  points_.clear();
+  sticking_.letGo();
+  near_.forget();
+  carried_ = false;
+}
+
+// A ray at rest on a moving body is at rest.
+void RayProxy::carry(Pose& X_WT) noexcept {
+  if (!carried_) return;
+  const Pose& now = solids_.X_WB()[carrier_];
+  X_WT = now * (X_WB_.inverse() * X_WT);
+}
+
+RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
+  Step result;
+  carry(X_WT);
+  near_.place(input.touchables, solids_.X_WB());
+  Vec6 moved = Vec6::Zero();
+  for (int part = 0; part < kParts && !move(input, X_WT, moved, result); ++part) expected_.setZero();
+  expected_ = moved;
+  Vec6 handle;
+  handle << input.v_WH, input.w_WH;
+  of_handle_ = couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period).wrench;
+  const auto* most = std::max_element(points_.begin(), points_.end(),
+                                      [](const PressedPoint& a, const PressedPoint& b) { return a.force < b.force; });
+  carried_ = most != points_.end() && most->force > 0;
+  if (carried_) {
+    carrier_ = most->solid;
+    X_WB_ = solids_.X_WB()[carrier_];
+  }
+  return result;
+}
+
+bool RayProxy::move(const ToolInput& input, Pose& X_WT, Vec6& moved, Step& result) noexcept {
+  Vec6 handle;
+  handle << input.v_WH, input.w_WH;
+  const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period);
+  const Mat6 inverse = inverseOf(force.stiffness);
+  const ContactProblem problem{force.stiffness, force.wrench, stiffness_, &inverse};
+  Vec6 u = inverse * problem.r;
+  const double most = std::min(std::max(wayOf(u), wayOf(expected_)) + kAhead, kFarthest);
+  points_.clear();
+  Settled settled{true, wayOf(u) <= most};
+  if (near_.begin(X_WT, most)) {
+    sticking_.begin();
+    settled = settle(problem, {X_WT, solids_.X_WB()}, most, u);
+    near_.keep();
+    result.whole = result.whole && near_.whole() && points_.lost() == 0;
+    result.exact = result.exact && settled.exact;
+  } else if (!settled.arrived) {
+    u *= most / wayOf(u);
+  }
+  const Pose begin = X_WT;
+  X_WT = movedBy(X_WT, u);
+  moved += u;
+  if (points_.empty()) {
+    sticking_.letGo();
+  } else {
+    sticking_.keep(X_WT, {begin, solids_.X_WB()}, points_);
+  }
+  return settled.arrived;
+}
+
+RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPoses& poses, double most,
+                                   Vec6& u) noexcept {
+  const bool rough = std::any_of(solids_.friction().begin(), solids_.friction().end(),
+                                 [](const FrictionCoefficients& one) { return one.mu_static > 0; });
+  const Vec6 free = u;
+  // The first look is at the pose that the last step leads to one expects. No point of the axis may move farther than its
+  // clearance there, neither on the way to it nor from it.
+  Vec6 centre = wayOf(expected_) <= most ? expected_ : Vec6(Vec6::Zero());
+  near_.look(movedBy(poses.X_WT, centre), points_);
+  if (wayOf(centre) > kSafe * near_.clearance()) {
+    centre.setZero();
+    near_.look(poses.X_WT, points_);
+  }
+  const double around = std::min(most - wayOf(centre), std::max(kSafe * near_.clearance(), kAhead));
+  Vec6 at = centre;  // step of the last look
+  Settled result;
+  for (int look = 0; look < kLooks; ++look) {
+    if (look > 0) near_.look(movedBy(poses.X_WT, at), points_);
+    for (PressedPoint& one : points_) {
+      Vec6 row;
+      row << one.nhat, one.p.cross(one.nhat);
+      one.gap -= row.dot(at);
+    }
+    if (points_.empty()) {
+      u = free;
+      result.exact = true;
+    } else {
+      result.exact =
+          rough ? solveWithFriction(problem, poses, sticking_, points_, u) : solveContacts(problem, points_, u).exact;
+    }
+    const double way = wayOf(u - centre);
+    result.arrived = way <= around;
+    if (!result.arrived) u = centre + around / way * (u - centre);
+    const double change = wayOf(u - at);
+    at = u;
+    if (change <= kSettled) return result;
+  }
+  result.exact = false;
+  return result;
+}
+
+}  // namespace presa

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstddef>
+
+#include "framework/haptics/sticking.h"
+#include "framework/haptics/tool_renderer.h"
+#include "framework/haptics/touched_solids.h"
+#include "framework/haptics/virtual_coupling.h"
+#include "modules/ray/ray_surroundings.h"
+
+namespace presa {
+
+/// Where one ray is held. Thread: haptic; nonblocking except for construction.
+class RayProxy {
+ public:
+  static constexpr std::size_t kMaxPoints = 64;  ///< of contact in a step
+
+  /// `stiffness`: of a point of contact [N/m]. `tool` is the same capsule as `ray`. All but the stiffness must outlive it.
+  RayProxy(const Ray& ray, const ConvexSolid& tool, const RayBodies& bodies, const TouchedSolids& solids,
+           const ToolCoupling& coupling, double stiffness);
+
+  /// How a tick went.
+  struct Step {
+    bool whole = true;  ///< everything near was examined as finely as it is given
+    bool exact = true;  ///< ray and forces are in balance
+  };
+  /// Moves the ray from X_WT to where springs and bodies hold it in this tick.
+  Step step(const ToolInput& input, Pose& X_WT) noexcept;
+  void reset() noexcept;  ///< starts anew, touching nothing
+
+  const BoundedList<PressedPoint>& points() const noexcept {
+    return points_;
+  }                                                                ///< after the step, from the tool's origin
+  const Sticking& sticking() const noexcept { return sticking_; }  ///< after the step
+  const Vec6& ofHandle() const noexcept {
+    return of_handle_;
+  }                                                   ///< wrench of the handle about the tool's origin, after it
+  double radius() const noexcept { return radius_; }  ///< of the ball around the tool's origin [m]
+
+ private:
+  void carry(Pose& X_WT) noexcept;
+  /// Part of a tick in which the ray cannot come past a surface. True: it has arrived.
+  bool move(const ToolInput& input, Pose& X_WT, Vec6& moved, Step& result) noexcept;
+  /// Finds the step `u` and its points. `u`: that of the handle alone; `most`: how far the step may go [m].
+  /// False: points and forces are not in balance, or the step was too long.
+  struct Settled {
+    bool exact = false;    ///< points and forces are in balance
+    bool arrived = false;  ///< no bound cut the step short
+  };
+  Settled settle(const ContactProblem& problem, const StepPoses& poses, double most, Vec6& u) noexcept;
+  double wayOf(const Vec6& step) const noexcept { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); }
+
+  const TouchedSolids& solids_;
+  const ToolCoupling& coupling_;
+  RaySurroundings near_;
+  double stiffness_, radius_;
+  BoundedList<PressedPoint> points_;
+  Sticking sticking_;
+  Vec6 of_handle_ = Vec6::Zero();
+  Vec6 expected_ = Vec6::Zero();  // step of this tick, as that of the last one
+  std::size_t carrier_ = 0;       // solid that presses most
+  bool carried_ = false;
+  Pose X_WB_;  // of the carrier in the last tick
+};
+
+}  // namespace presa
