@@ -13,11 +13,6 @@ constexpr double kCorner = 1e-9;    // barycentric weight below which a corner h
 constexpr double kParallel = 1e-9;  // determinant of the products of normals, below which they are one plane
 constexpr double kReach = 1e-3;     // of the search for the nearest triangle, beyond the tool [m]
 
-/// Up to three planes that hold a tool.
-using Normals = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
-using Products = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
-using Multipliers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
-
 /// Facet nearest to p, within `reach`; null: none.
 struct NearestFacet {
   const MeshTree& tree;
@@ -107,14 +102,13 @@ TouchedShare ShareFinder::near(const Vec3& p_B, double reach) const noexcept {
 TouchedShare ShareFinder::at(const SurfaceInput& input, std::int32_t body) const noexcept {
   const ActiveSet& active = input.contact.active;
   std::array<TouchedShare, 3> each;
-  Normals normals(3, active.count);
-  Multipliers weight(active.count);
+  Mat3 normals = Mat3::Zero();  // of up to three planes
+  Vec3 weight = Vec3::Zero();
   double sum = 0;
   int last = -1, own = 0;
   for (int i = 0; i < active.count; ++i) {
     const ActiveSet::Member& member = active.member[static_cast<std::size_t>(i)];
     normals.col(i) = member.nhat;
-    weight[i] = 0;
     if (member.body != body) continue;
     const Surroundings::Triangle touched =
         input.near.triangleOf(Point::kGodObject, member.piece, input.contact.state.god_object);
@@ -134,12 +128,15 @@ TouchedShare ShareFinder::at(const SurfaceInput& input, std::int32_t body) const
     here.gradient = X_BA.q.conjugate() * here.gradient;
     return here;
   }
-  const Products products = normals.transpose() * normals;
   const TouchedShare& most = each[static_cast<std::size_t>(last)];
-  if (active.count == 1 || !(sum > 0) || !(products.determinant() > kParallel)) {
+  const auto alone = [&]() -> TouchedShare {
     const Vec3 nhat = normals.col(last);
     return {most.stiffness, most.friction, most.gradient - most.gradient.dot(nhat) * nhat};
-  }
+  };
+  if (active.count == 1 || !(sum > 0)) return alone();
+  Mat3 products = normals.transpose() * normals;
+  for (int i = active.count; i < 3; ++i) products(i, i) = 1;
+  if (!(products.determinant() > kParallel)) return alone();
   weight /= sum;
   TouchedShare mean{0, 0, Vec3::Zero()};
   for (int i = 0; i < active.count; ++i) {
@@ -148,14 +145,12 @@ TouchedShare ShareFinder::at(const SurfaceInput& input, std::int32_t body) const
     mean.friction += weight[i] * here.friction;
     mean.gradient += weight[i] * here.gradient;
   }
-  Multipliers steps(active.count);
+  Vec3 steps = Vec3::Zero();
   for (int i = 0; i < active.count; ++i) {
     const bool is_own = active.member[static_cast<std::size_t>(i)].body == body;
     steps[i] = is_own ? (each[static_cast<std::size_t>(i)].stiffness - mean.stiffness) / sum : 0;
   }
-  const Products inverse = products.inverse();
-  const Multipliers along = inverse * (normals.transpose() * mean.gradient);
-  mean.gradient -= normals * along + normals * (inverse * steps);
+  mean.gradient -= normals * (products.inverse() * (normals.transpose() * mean.gradient + steps));
   return mean;
 }
 
