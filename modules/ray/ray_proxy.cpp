@@ -12,9 +12,11 @@ namespace {
 constexpr double kFarthest = 0.004;  // way of a point in a part of a tick [m]
 constexpr double kSafe = 0.9;        // of the clearance, which a part of a tick uses at most
 constexpr double kAhead = 2e-5;      // places are looked for this far beyond the way [m]
-constexpr double kSettled = 2e-6;    // change of the pose at which the looks end [m]
-constexpr int kParts = 4;            // of a tick
-constexpr int kLooks = 12;           // in a part
+constexpr double kSettled = 5e-6;    // change of the pose at which the looks end [m]
+constexpr double kRoom = 1e-4;       // of the first part, beyond the last tick's way times kGrowth [m]
+constexpr double kGrowth = 1.5;
+constexpr int kParts = 4;   // of a tick
+constexpr int kLooks = 12;  // in a part
 
 /// The handle resists motion and turn apart from each other.
 Mat6 inverseOf(const Mat6& stiffness) noexcept {
@@ -57,7 +59,12 @@ RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
   carry(X_WT);
   near_.place(input.touchables, solids_.X_WB());
   Vec6 moved = Vec6::Zero();
-  for (int part = 0; part < kParts && !move(input, X_WT, moved, result); ++part) expected_.setZero();
+  // a first part as long as the last tick makes one expect: where the ray is held, few places are then looked at
+  double farthest = kRoom + kGrowth * wayOf(expected_);
+  for (int part = 0; part < kParts && !move(input, farthest, X_WT, moved, result); ++part) {
+    expected_.setZero();
+    farthest = kFarthest;
+  }
   expected_ = moved;
   Vec6 handle;
   handle << input.v_WH, input.w_WH;
@@ -72,14 +79,14 @@ RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
   return result;
 }
 
-bool RayProxy::move(const ToolInput& input, Pose& X_WT, Vec6& moved, Step& result) noexcept {
+bool RayProxy::move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& moved, Step& result) noexcept {
   Vec6 handle;
   handle << input.v_WH, input.w_WH;
   const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period);
   const Mat6 inverse = inverseOf(force.stiffness);
   const ContactProblem problem{force.stiffness, force.wrench, stiffness_, &inverse};
   Vec6 u = inverse * problem.r;
-  const double most = std::min(std::max(wayOf(u), wayOf(expected_)) + kAhead, kFarthest);
+  const double most = std::min({std::max(wayOf(u), wayOf(expected_)) + kAhead, farthest, kFarthest});
   points_.clear();
   Settled settled{true, wayOf(u) <= most};
   if (near_.begin(X_WT, most)) {

@@ -38,8 +38,9 @@ class RayProxy {
 
  private:
   void carry(Pose& X_WT) noexcept;
-  /// Part of a tick in which the ray cannot come past a surface. True: it has arrived.
-  bool move(const ToolInput& input, Pose& X_WT, Vec6& moved, Step& result) noexcept;
+  /// Part of a tick in which the ray cannot come past a surface, and no point of it moves farther than `farthest` [m].
+  /// True: it has arrived.
+  bool move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& moved, Step& result) noexcept;
   /// Finds the step `u` and its points. `u`: that of the handle alone; `most`: how far the step may go [m].
   /// False: points and forces are not in balance, or the step was too long.
   struct Settled {

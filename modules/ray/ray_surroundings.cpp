@@ -6,6 +6,7 @@ namespace presa {
 namespace {
 
 constexpr double kBeside = 1e-5;       // gap up to which a place is kept [m]
+constexpr double kFocusAhead = 1;      // steps for which a front is focused
 constexpr double kEqual = 1e-9;        // distance of points that are one [m]
 constexpr double kSamePlace = 1e-3;    // [m]
 constexpr double kSameNormal = 0.999;  // cosine
@@ -88,7 +89,7 @@ bool RaySurroundings::begin(const Pose& X_WT, double reach) noexcept {
     }
     near->tick = tick_;
     near->X_WG = X_WG;
-    near->front.focus(axis, ray_.radius + reach);
+    near->front.focus(axis, ray_.radius + reach, kFocusAhead * reach);
     const auto slot = std::find_if(near_.begin(), near_.end(), [&](const auto& one) { return one.get() == near; });
     now_[now_count_++] = static_cast<std::size_t>(slot - near_.begin());
   }

@@ -37,7 +37,7 @@ double nearestToBox(const MeshTree::Node& node, const Segment& segment) noexcept
 }  // namespace
 
 SegmentFront::Query::Query(const Segment& of) noexcept
-    : segment(of), d(of.b - of.a), length(d.norm()), per_square(length > 0 ? 1 / (length * length) : 0) {}
+    : segment(of), d(of.b - of.a), per_length(d.norm() > 0 ? 1 / d.norm() : 0) {}
 
 SegmentFront::SegmentFront() : items_(kCapacity), refs_(kCapacity), near_(kCapacity), here_(kCapacity) {}
 
@@ -68,8 +68,9 @@ void SegmentFront::bind(int item, const TangentBound& bound) noexcept {
 double SegmentFront::boundOf(int item, const Query& query, double limit) const noexcept {
   const Item& one = items_[static_cast<std::size_t>(item)];
   const double slope = one.nhat.dot(query.d), at_a = one.nhat.dot(query.segment.a) + one.offset;
-  const double s = std::clamp((one.centre - query.segment.a).dot(query.d) * query.per_square, 0.0, 1.0);
-  const double part = query.length > 0 ? std::min(1.0, (limit + one.radius) / query.length) : 0;
+  const double s =
+      std::clamp((one.centre - query.segment.a).dot(query.d) * query.per_length * query.per_length, 0.0, 1.0);
+  const double part = std::min(1.0, (limit + one.radius) * query.per_length);
   return at_a + slope * s - std::abs(slope) * part;
 }
 
@@ -77,6 +78,7 @@ void SegmentFront::seed(const MeshTree& tree) noexcept {
   tree_ = &tree;
   count_ = near_count_ = fresh_ = 0;
   last_ = -1;
+  focus_radius_ = -1;
   put(count_++, {}, MeshTree::kRoot);
 }
 
@@ -96,8 +98,11 @@ bool SegmentFront::open(int item) noexcept {
   return true;
 }
 
-void SegmentFront::focus(const Segment& segment, double radius) noexcept {
+void SegmentFront::focus(const Segment& segment, double radius, double ahead) noexcept {
+  if (radius + movedFrom(segment) <= focus_radius_ && !full_) return;
   full_ = false;
+  radius += ahead;
+  focus_radius_ = radius;
   if (fresh_ > 0 && count_ > 2 * fresh_ + kSpare) seed(*tree_);
   focused_ = segment;
   const Query query(segment);
@@ -106,6 +111,10 @@ void SegmentFront::focus(const Segment& segment, double radius) noexcept {
     const double bound = boundOf(item, query, radius);
     if (bound <= radius) beside(item, bound);
   }
+}
+
+double SegmentFront::movedFrom(const Segment& segment) const noexcept {
+  return std::max((segment.a - focused_.a).norm(), (segment.b - focused_.b).norm());
 }
 
 void SegmentFront::beside(int item, double bound) noexcept {
@@ -186,7 +195,7 @@ void SegmentFront::search(const Query& query, Found& best, double& limit) noexce
   const int first = last_ >= 0 ? last_ : lowest(query, limit), count = near_count_;
   if (first < 0) return;
   lookAt(first, query, best, limit);
-  const double moved = std::max((query.segment.a - focused_.a).norm(), (query.segment.b - focused_.b).norm());
+  const double moved = movedFrom(query.segment);
   for (int n = 0; n < count; ++n) {  // children opened here are looked at at once
     const int item = near_[static_cast<std::size_t>(n)];
     if (here_[static_cast<std::size_t>(n)] > limit + moved) continue;

@@ -23,9 +23,9 @@ class SegmentFront {
   void seed(const MeshTree& tree) noexcept;                                  ///< restarts from the root of a mesh
   bool isOf(const MeshTree& tree) const noexcept { return tree_ == &tree; }  ///< seeded with it
 
-  /// Selects the items that may come within `radius` of the segment; nearestOf() examines only these until the next call.
-  /// Restarts from the root when most items are left behind.
-  void focus(const Segment& segment, double radius) noexcept;
+  /// Selects the items that may come within `radius` of the segment, and of one that moves `ahead` farther; nearestOf()
+  /// examines only these until the next call. Restarts from the root when most items are left behind.
+  void focus(const Segment& segment, double radius, double ahead) noexcept;
 
   /// The item nearest to the segment, but for kSlack, if its distance is at most `limit`.
   struct Found {
@@ -59,13 +59,14 @@ class SegmentFront {
     explicit Query(const Segment& segment) noexcept;
     const Segment& segment;
     Vec3 d;
-    double length, per_square;  // of d; 1 / d.d
+    double per_length;  // 1 / |d|; 0 for a point
   };
   void put(int item, const TangentBound& bound, std::int32_t ref) noexcept;
   void bind(int item, const TangentBound& bound) noexcept;
   /// More than `limit` only if the item is farther than that from the segment.
   double boundOf(int item, const Query& query, double limit) const noexcept;
-  void beside(int item, double bound) noexcept;  ///< adds an item to those in focus
+  double movedFrom(const Segment& segment) const noexcept;  ///< way of its farthest point since the last focus
+  void beside(int item, double bound) noexcept;             ///< adds an item to those in focus
   bool open(int item) noexcept;
   /// Renews the bound of a node and returns it.
   double renew(int item, const Query& query, double limit) noexcept;
@@ -79,6 +80,7 @@ class SegmentFront {
   std::vector<std::int32_t> near_;  // items in focus
   std::vector<double> here_;        // their bounds there
   Segment focused_;
+  double focus_radius_ = -1;  // near_ holds all items within this distance of focused_; below zero: nothing
   const MeshTree* tree_ = nullptr;
   int count_ = 0, near_count_ = 0, fresh_ = 0;
   int last_ = -1;  // nearest item of the last query

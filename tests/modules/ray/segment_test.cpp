@@ -67,7 +67,7 @@ TEST(Segment, FrontFindsTheNearestTriangle) {
     segment.a += dice(speed) - 2e-3 * speed / 1e-4 * (segment.a - Vec3(0.055, -0.05, 0));
     segment.b += dice(speed) - 2e-3 * speed / 1e-4 * (segment.b - Vec3(0.045, 0.05, 0));
     const double reach = 0.005;
-    front.focus(segment, reach);
+    front.focus(segment, reach, i % 2 == 0 ? 0 : 1e-3);
     for (int look = 0; look < 3; ++look) {
       const Segment moved{segment.a + dice(1e-4), segment.b + dice(1e-4)};
       const SegmentFront::Found found = front.nearestOf(moved, reach - 1e-3);
