@@ -1,6 +1,7 @@
 // Per-triangle and per-vertex materials: shares by vertex (mesh_shares.h), found where a tool touches (touched_share.h),
 // and the force of their stored energy (framework/haptics/graded_stiffness.h).
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
@@ -15,9 +16,15 @@ namespace {
 constexpr double kShownForce = 1;     // [N]
 constexpr double kShownReach = 1e-4;  // of a drawn place from the mesh [m]
 
+constexpr std::size_t kListed = 20;
+
+/// Names come from the file: no control characters reach the terminal.
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (std::size_t i = 0; i < std::min(names.size(), kListed); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kListed) text += " and " + std::to_string(names.size() - kListed) + " more";
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
   return text.empty() ? "none" : text;
 }
 

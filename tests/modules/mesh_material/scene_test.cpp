@@ -82,8 +82,23 @@ TEST(BadMeshMaterial, IsAsSteepAs45DegreesAtTwoMillimetres) {
     const std::string found = refused(meshWorld("", R"(<material_part name="gel" stiffness="0.2"/>)", "", "",
                                                 "<mesh file=\"board.obj\" scale=\"" + scale + " 1 1\"/>"));
     EXPECT_EQ(found.empty(), is_good) << found;
-    if (!is_good) EXPECT_NE(found.find("would lean by 45 degrees, more than 45"), std::string::npos) << found;
+    EXPECT_EQ(found.find("would lean by 45 degrees, more than 45") != std::string::npos, !is_good) << found;
   }
+}
+
+// Names of materials are the file's.
+TEST(BadMeshMaterial, ListsUpToTwentyNamesWithoutControlCharacters) {
+  Block block = board();
+  block.part = [](double x, double y) {
+    const auto cell = std::lround(1000 * x) * 100 + std::lround(1000 * y);
+    return cell < 0 ? "red\033[31m" : "part" + std::to_string(cell);
+  };
+  block.vertices.clear(), block.triangles.clear();
+  const std::string found = refused(meshWorld(block.build().file("many.obj"), R"(<material_part name="gel"/>)"));
+  EXPECT_EQ(found.find('\033'), std::string::npos);
+  EXPECT_NE(found.find("red?[31m"), std::string::npos) << found;
+  EXPECT_NE(found.find(" more"), std::string::npos) << found;
+  EXPECT_LT(found.size(), 1000U) << found;
 }
 
 // A file that changes between the two times it is read.
