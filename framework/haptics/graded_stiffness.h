@@ -3,7 +3,7 @@
 
 namespace presa {
 
-/// At this depth the force of a graded stiffness leans by at most 45 degrees [m]: surface effects refuse what is steeper.
+/// At this depth the force of a graded stiffness leans by at most 45 degrees [m]: surface effects refuse more.
 inline constexpr double kGradedDepth = 0.002;
 
 /// Whether the force of a stiffness `share` with this slope of the share [1/m] leans by more at kGradedDepth.

@@ -1,5 +1,5 @@
-// Per-triangle and per-vertex materials: shares by vertex (mesh_shares.h), found where a tool touches (touched_share.h),
-// and the force of their stored energy (framework/haptics/graded_stiffness.h).
+// Per-triangle and per-vertex materials: shares by vertex (mesh_shares.h), found where a tool touches
+// (touched_share.h), and the force of their stored energy (framework/haptics/graded_stiffness.h).
 #include <algorithm>
 #include <cctype>
 #include <cstdio>

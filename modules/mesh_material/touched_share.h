@@ -18,9 +18,9 @@ class ShareFinder {
   /// `tree`: of the mesh; null: a tool whose renderer names no triangles feels the material as it stands.
   ShareFinder(std::shared_ptr<const MeshShares> shares, std::shared_ptr<const MeshTree> tree, const Pose& X_BG);
 
-  /// At the touched triangles; of a renderer that does not name any, at the one nearest to the touched point. On a convex
-  /// edge the touched point moves along it only, at a corner not at all. In a hollow edge, where several triangles hold
-  /// the tool, the shares are their mean by the parts of the force that they bear: continuous from one side to the other.
+  /// At the touched triangles; of a renderer that does not name any, at the one nearest to the touched point. On a
+  /// convex edge the touched point moves along it only, at a corner not at all. In a hollow edge, where several triangles
+  /// hold the tool, the shares are their mean by the parts of the force that they bear: continuous from side to side.
   TouchedShare at(const SurfaceInput& input, std::int32_t body) const noexcept;
   /// At the triangle nearest to p_B, within `reach`. Thread: any.
   TouchedShare near(const Vec3& p_B, double reach) const noexcept;

@@ -128,7 +128,8 @@ std::string plyOf(bool inside_out, bool with_speck) {
   return out;
 }
 
-// Triangles of a face of four corners, of a mesh that is turned, mirrored, or lost a triangle, keep their corners' values.
+// Triangles of a face of four corners, of a mesh that is turned, mirrored, or lost a triangle, keep the values of their
+// corners.
 TEST_F(MeshAttributesOf, PlyFollowTheirTrianglesThroughRepairs) {
   for (const bool inside_out : {false, true}) {
     for (const bool with_speck : {false, true}) {

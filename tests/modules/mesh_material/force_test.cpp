@@ -1,5 +1,5 @@
-// The forces of parts and colours: each part's own stiffness and friction, the slope of the energy at their borders, and
-// no energy from closed loops.
+// The forces of parts and colours: each part's own stiffness and friction, the slope of the energy at their borders,
+// and no energy from closed loops.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -72,8 +72,8 @@ TEST(MaterialPart, PushesTowardsTheSofterSideByTheSlopeOfTheEnergy) {
   }
 }
 
-/// Bound of the trapezium rule's error over the work moved: within triangles the force is quadratic in the place, and at
-/// each of `borders` triangle borders it may jump by k d^2 / 2 times twice the slope, of which half a step counts.
+/// Bound of the trapezium rule's error over the work moved: within triangles the force is quadratic in the place, and
+/// at each of `borders` triangle borders it may jump by k d^2 / 2 times twice the slope, of which half a step counts.
 double mostGained(const Round& round, int steps, double depth, double slope, int borders, double length) {
   const double step = length / steps, jump = kStiffness * depth * depth * slope;
   return borders * jump * step / 2 + 1e-5 * round.moved;
@@ -146,8 +146,8 @@ TEST(ALoopOverAFoldedMesh, GainsNoEnergy) {
   }
 }
 
-/// Every vertex at another height, every cell of another part: the finger touches faces, edges, corners and, in hollows,
-/// several triangles at once.
+/// Every vertex at another height, every cell of another part: the finger touches faces, edges, corners and, in
+/// hollows, several triangles at once.
 Block rough() {
   RandomStream random(5, "heights");
   std::map<std::pair<double, double>, double> heights;

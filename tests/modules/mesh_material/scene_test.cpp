@@ -72,7 +72,7 @@ TEST(BadMeshMaterial, OfTwoColoursIsRefused) {
   }
 }
 
-// The steepest triangle has half of 1 - s over a cell of 5 mm, between a vertex of s and one of (1 + s) / 2: it leans by
+// The steepest triangle has half of 1 - s over a cell of w, between a vertex of s and one of (1 + s) / 2: it leans by
 // 45 degrees at 2 mm if 0.001 (1 - s) / 2 / w = s.
 TEST(BadMeshMaterial, IsAsSteepAs45DegreesAtTwoMillimetres) {
   board().file("board.obj");
