@@ -28,6 +28,7 @@ std::vector<Case> allCases() {
           thin_plate::make(),
           grooves::make(),
           texture_loops::make(),
+          ray_loops::make(),
           tall_tower::make(),
           falling_tower::make(),
           tower_on_tower::make(),

@@ -79,6 +79,9 @@ Case make();
 namespace grooves {
 Case make();
 }
+namespace ray_loops {
+Case make();
+}
 namespace tall_tower {
 Case make();
 }

@@ -3,7 +3,7 @@
 namespace presa {
 
 // The force first, then the torque by couples.
-void balanceForces(BoundedList<ToolForce>& forces, const Vec6& wrench) noexcept {
+void balanceForces(BoundedList<ToolForce>& forces, const Vec6& wrench, double lever) noexcept {
   constexpr double kSlack = 1e-6;  // of the largest resistance to turning: directions below it are left alone
   double total = 0;
   Vec3 centre = Vec3::Zero(), force = wrench.head<3>(), torque = wrench.tail<3>();
@@ -20,7 +20,7 @@ void balanceForces(BoundedList<ToolForce>& forces, const Vec6& wrench) noexcept 
     const Vec3 arm = one.p_W - centre;
     turning += one.stiffness * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   }
-  turning.diagonal().array() += kSlack * (turning.trace() + 1e-9 * total);
+  turning.diagonal().array() += kSlack * (turning.trace() + 1e-9 * total) + lever * lever * total;
   const Vec3 turn = turning.ldlt().solve(torque);
   for (ToolForce& one : forces) one.f_W += one.stiffness * turn.cross(one.p_W - centre);
 }

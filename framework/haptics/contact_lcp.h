@@ -13,7 +13,8 @@ struct PressedPoint {
   std::uint32_t solid = 0;       ///< its body, by solid
   double force = 0;              ///< along nhat, the problem's solution [N]
   Vec3 friction = Vec3::Zero();  ///< on the tool, square to nhat [N]
-  double hold = 0;               ///< stiffness with which friction holds it, while it sticks [N/m]
+  double hold = 0;               ///< stiffness of the spring that stands for friction in the problem; 0: none [N/m]
+  double stretch = 0;            ///< of that spring after the step [m]
 };
 
 /// Adds a point; in a full list it takes the place of the highest one, if it is deeper.

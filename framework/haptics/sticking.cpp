@@ -1,12 +1,15 @@
 #include "framework/haptics/sticking.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace presa {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of the limit of friction
+constexpr double kSoft = 0.1;  // of the spring of a pair that holds, up to which a spring is one that slides steadily
+constexpr double kMissed = 0.02;  // of the limit of friction, by which friction in the problem may be wrong
 
 Vec3 along(const PressedPoint& contact, const Vec3& v) noexcept { return v - v.dot(contact.nhat) * contact.nhat; }
 
@@ -32,10 +35,11 @@ bool Sticking::slides(const PressedPoint& contact) const noexcept {
   return anchor != nullptr && anchor->slides;
 }
 
-void Sticking::begin() noexcept {
+void Sticking::begin(bool steady) noexcept {
   for (Anchor& anchor : anchors_) {
     anchor.slid = anchor.slides;
-    anchor.slides = false;
+    const double stretch = anchor.pressure > 0 ? anchor.stretched / anchor.pressure : 0;
+    anchor.slides = anchor.is_spring = steady && anchor.slid && anchor.limit < kSoft * stiffness_ * stretch;
   }
 }
 
@@ -46,17 +50,27 @@ Vec3 Sticking::stretchOf(const PressedPoint& contact, const Anchor& anchor, cons
 }
 
 void Sticking::addTo(ContactProblem& problem, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept {
-  for (Anchor& anchor : anchors_) anchor.pressure = 0;
+  for (Anchor& anchor : anchors_) {
+    anchor.pressure = 0;
+    anchor.holds = anchor.is_spring;
+  }
   for (const PressedPoint& one : contacts) {
     if (Anchor* anchor = anchorOf(one)) anchor->pressure += one.force;
   }
   for (PressedPoint& one : contacts) {
+    const double before = one.hold;
     one.hold = 0;
-    const Anchor* anchor = anchorOf(one);
+    Anchor* anchor = anchorOf(one);
     if (anchor == nullptr || !(one.force > 0)) continue;
     Vec3 force = one.friction;
-    if (!anchor->slides) {
+    if (!anchor->slides || (anchor->is_spring && one.stretch > 0)) {
       one.hold = stiffness_ * one.force / anchor->pressure;
+      if (anchor->slides) {
+        double weaker = friction_[one.solid].mu_dynamic * one.force / one.stretch;
+        if (before > 0) weaker *= std::sqrt(weaker / before);  // a step and a half at once
+        anchor->holds = anchor->holds && weaker >= one.hold;
+        one.hold = std::min(one.hold, weaker);
+      }
       force = -one.hold * stretchOf(one, *anchor, poses);
       problem.inverse = nullptr;
       addStiffness(one.hold * (Mat3::Identity() - one.nhat * one.nhat.transpose()), one.p, problem.Q);
@@ -70,28 +84,48 @@ void Sticking::slide(const Vec6& u, const StepPoses& poses, BoundedList<PressedP
   for (PressedPoint& one : contacts) {
     const Anchor* anchor = anchorOf(one);
     if (anchor == nullptr || !anchor->slides || !(one.force > 0)) continue;
+    if (anchor->is_spring && anchor->stretched > 0 && anchor->pressure > 0) {
+      one.stretch = anchor->stretched / anchor->pressure;
+      continue;
+    }
     const Vec3 stretch = stretchOf(one, *anchor, poses) + slip(one, u);
-    if (stretch.norm() > 0) one.friction = -friction_[one.solid].mu_dynamic * one.force * stretch.normalized();
+    one.stretch = stretch.norm();
+    if (one.stretch > 0) one.friction = -friction_[one.solid].mu_dynamic * one.force / one.stretch * stretch;
   }
 }
 
 bool Sticking::update(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept {
-  for (Anchor& anchor : anchors_) anchor.pressure = anchor.limit = anchor.wanted = anchor.stretched = 0;
+  for (Anchor& anchor : anchors_) anchor.pressure = anchor.limit = anchor.wanted = anchor.stretched = anchor.missed = 0;
   for (PressedPoint& one : contacts) {
+    const Vec3 given = one.friction;
     one.friction = Vec3::Zero();
     Anchor* anchor = anchorOf(one);
-    if (anchor == nullptr || !(one.force > 0)) continue;
+    // a point that the spring lifted still holds the pair by its part of the spring, until the next round
+    if (anchor == nullptr || !(one.force > 0 || one.hold > 0)) continue;
     const FrictionCoefficients& friction = friction_[one.solid];
     anchor->pressure += one.force;
     anchor->limit += (anchor->slid ? friction.mu_dynamic : friction.mu_static) * one.force;
     const Vec3 stretch = stretchOf(one, *anchor, poses) + slip(one, u);
-    anchor->stretched += one.force * stretch.norm();
+    one.stretch = stretch.norm();
+    anchor->stretched += one.force * one.stretch;
     one.friction = -one.hold * stretch;
     anchor->wanted += one.friction.norm();
-    if (anchor->slides && stretch.norm() > 0) one.friction = -friction.mu_dynamic * one.force * stretch.normalized();
+    if (!anchor->slides || !(one.stretch > 0)) continue;
+    const Vec3 slides = -friction.mu_dynamic * one.force / one.stretch * stretch;
+    anchor->missed += (slides - (one.hold > 0 ? one.friction : given)).norm();
+    if (!(one.hold > 0)) one.friction = slides;
   }
   bool as_thought = true;
   for (Anchor& anchor : anchors_) {
+    if (anchor.slides && anchor.is_spring && anchor.holds) {
+      anchor.slides = anchor.wanted > anchor.limit * (1 + kRounding);
+      if (!anchor.slides) continue;
+      anchor.is_spring = false;
+      as_thought = false;
+    } else if (anchor.slides && anchor.missed > kMissed * anchor.limit) {
+      anchor.is_spring = true;
+      as_thought = false;
+    }
     if (anchor.slides || anchor.wanted <= anchor.limit * (1 + kRounding)) continue;
     anchor.slides = true;
     as_thought = false;
@@ -119,13 +153,14 @@ void Sticking::keep(const Pose& X_WT, const StepPoses& poses, const BoundedList<
   }
   for (const PressedPoint& one : contacts) {
     if (!(one.force > 0) || anchorOf(one) != nullptr) continue;
-    anchors_.add({one.pair, one.solid, poses.X_WB[one.solid].inverse() * X_WT, false, false, one.force});
+    anchors_.add(
+        {.pair = one.pair, .solid = one.solid, .X_BT = poses.X_WB[one.solid].inverse() * X_WT, .pressure = one.force});
   }
 }
 
 bool solveWithFriction(const ContactProblem& without, const StepPoses& poses, Sticking& sticking,
                        BoundedList<PressedPoint>& contacts, Vec6& u) noexcept {
-  constexpr int kRounds = 8;  // in which pairs that hold turn out to slide
+  constexpr int kRounds = 12;  // in which pairs that hold turn out to slide, and the springs of those find their force
   bool exact = solveContacts(without, contacts, u).exact, as_thought = false;
   sticking.slide(u, poses, contacts);
   for (int round = 0; round < kRounds && !as_thought; ++round) {

@@ -15,8 +15,9 @@ struct StepPoses {
 
 /// Coulomb friction on top of the frictionless contact problem: for each pair of parts the pose at which friction holds
 /// the tool on the body. The stretch of a point of contact is its way along the surface since then; its stiffness is its
-/// share of the pair's by pressure, so that all points of a pair break away at once. Thread: haptic; nonblocking except
-/// for construction.
+/// share of the pair's by pressure, so that all points of a pair break away at once. A pair that slides has the force of
+/// dynamic friction against its way; where this force changes the way, a spring so weak that it gives just that force at the
+/// end of the step. Thread: haptic; nonblocking except for construction.
 class Sticking {
  public:
   /// `stiffness`: of a pair, along the surface [N/m]. `friction`: by solid; must outlive it. For so many `pairs` in
@@ -24,8 +25,8 @@ class Sticking {
   Sticking(double stiffness, const std::vector<FrictionCoefficients>& friction, std::size_t pairs)
       : stiffness_(stiffness), friction_(friction), anchors_(pairs) {}
 
-  /// Begins a step: every pair is thought to hold.
-  void begin() noexcept;
+  /// Begins a step: every pair is thought to hold; if `steady`, those that slid in the last step to slide on as fast.
+  void begin(bool steady = false) noexcept;
   /// Adds friction to the problem, for the forces of `contacts`: a spring where it holds, a force where it slides.
   void addTo(ContactProblem& problem, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept;
   /// Friction of the contacts of pairs that were found to slide in this step, for their forces and the step u.
@@ -42,6 +43,9 @@ class Sticking {
     std::uint32_t pair = 0, solid = 0;
     Pose X_BT;
     bool slid = false, slides = false;           // in the last step, in this one
+    bool is_spring = false;                      // while it slides
+    bool holds = false;                          // the spring of a pair that slides is that of one that does not
+    double missed = 0;                           // friction in the problem less that after it [N]
     double pressure = 0, limit = 0, wanted = 0;  // of its contacts: force, friction at most, friction to hold [N]
     double stretched = 0;                        // sum of forces times stretches [N m]
   };

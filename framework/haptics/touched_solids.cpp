@@ -46,7 +46,7 @@ bool TouchedSolids::list(const Pressing& tool, const Vec6& of_handle, BoundedLis
                 .friction_dynamic = friction_[one.solid].mu_dynamic,
                 .slips = tool.sticking.slides(one)});
   }
-  balanceForces(forces, -of_handle);
+  balanceForces(forces, -of_handle, tool.lever);
   return true;
 }
 

@@ -28,6 +28,7 @@ class TouchedSolids {
     const Sticking& sticking;                 ///< after the same step
     double stiffness = 0;                     ///< of a point [N/m]
     double radius = 0;                        ///< of the ball around the tool's origin [m]
+    double lever = 0;                         ///< places nearer to each other hardly give a torque [m]
   };
   /// Adds the points that press to `forces`, their places from the tool's origin, and balances them with `of_handle`, the
   /// wrench of the handle on the tool about its origin. A body is squeezed by four times what the handle can press with

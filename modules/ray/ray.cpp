@@ -11,6 +11,8 @@
 namespace presa {
 namespace {
 
+constexpr double kLever = 1e-3;  // [m]
+
 class RayRenderer final : public ToolRenderer {
  public:
   RayRenderer(const PluginElement& settings, const World& world);
@@ -61,7 +63,7 @@ void RayRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& forces, 
   if (!state.alive) proxy.reset();
   const RayProxy::Step step = proxy.step(input, state.X_WT);
   solids_.list(
-      {scene_.devices[input.tool].tool->coupling, proxy.points(), proxy.sticking(), stiffness_, proxy.radius()},
+      {scene_.devices[input.tool].tool->coupling, proxy.points(), proxy.sticking(), stiffness_, proxy.radius(), kLever},
       proxy.ofHandle(), forces);
   for (ToolForce& one : forces) one.p_W += state.X_WT.p;
   state.points = static_cast<std::uint32_t>(forces.size());

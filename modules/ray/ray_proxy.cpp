@@ -15,8 +15,9 @@ constexpr double kAhead = 2e-5;      // places are looked for this far beyond th
 constexpr double kSettled = 5e-6;    // change of the pose at which the looks end [m]
 constexpr double kRoom = 1e-4;       // of the first part, beyond the last tick's way times kGrowth [m]
 constexpr double kGrowth = 1.5;
-constexpr int kParts = 4;   // of a tick
-constexpr int kLooks = 12;  // in a part
+constexpr double kEased = 0.005;  // the same of friction, all places together [N]
+constexpr int kParts = 4;         // of a tick
+constexpr int kLooks = 12;        // in a part
 
 /// The handle resists motion and turn apart from each other.
 Mat6 inverseOf(const Mat6& stiffness) noexcept {
@@ -41,6 +42,7 @@ RayProxy::RayProxy(const Ray& ray, const ConvexSolid& tool, const RayBodies& bod
 void RayProxy::reset() noexcept {
   of_handle_.setZero();
   expected_.setZero();
+  friction_.setZero();
   points_.clear();
   sticking_.letGo();
   near_.forget();
@@ -90,7 +92,7 @@ bool RayProxy::move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& m
   points_.clear();
   Settled settled{true, wayOf(u) <= most};
   if (near_.begin(X_WT, most)) {
-    sticking_.begin();
+    sticking_.begin(true);
     settled = settle(problem, {X_WT, solids_.X_WB()}, most, u);
     near_.keep();
     result.whole = result.whole && near_.whole() && points_.lost() == 0;
@@ -144,7 +146,11 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
     if (!result.arrived) u = centre + around / way * (u - centre);
     const double change = wayOf(u - at);
     at = u;
-    if (change <= kSettled) return result;
+    Vec3 friction = Vec3::Zero();
+    for (const PressedPoint& one : points_) friction += one.friction;
+    const double eased = (friction - friction_).norm();
+    friction_ = friction;
+    if (result.exact && change <= kSettled && eased <= kEased) return result;
   }
   result.exact = false;
   return result;

@@ -58,6 +58,7 @@ class RayProxy {
   Sticking sticking_;
   Vec6 of_handle_ = Vec6::Zero();
   Vec6 expected_ = Vec6::Zero();  // step of this tick, as that of the last one
+  Vec3 friction_ = Vec3::Zero();  // of all points at the last look [N]
   std::size_t carrier_ = 0;       // solid that presses most
   bool carried_ = false;
   Pose X_WB_;  // of the carrier in the last tick

@@ -46,6 +46,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     square_peg) args+=(--screenshot-at 9.3 --camera "0.13,-0.19,0.15:0,0,0.03") ;;
     stylus_on_bunny) args+=(--screenshot-at 12) ;;
     probe) args+=(--screenshot-at 9.4 --camera "0.03,-0.26,0.16:0,0,0.03") ;; # on the block and the ball
+    ray) args+=(--screenshot-at 9.4 --camera "0.03,-0.17,0.09:0.01,0,0.028") ;; # on the rim of the cup and the rabbit
     moving_wall) args+=(--screenshot-at 0.25) ;;
     knocks) args+=(--screenshot-at 2.92) ;; # on the stone
     pile) args+=(--screenshot-at 3.4) ;;
