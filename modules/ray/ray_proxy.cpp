@@ -16,6 +16,7 @@ constexpr double kSettled = 5e-6;    // change of the pose at which the looks en
 constexpr double kRoom = 1e-4;       // of the first part, beyond the last tick's way times kGrowth [m]
 constexpr double kGrowth = 1.5;
 constexpr double kEased = 0.005;  // the same of friction, all places together [N]
+constexpr double kNearest = 0.5;  // of the radius: clearance of the axis [-]
 constexpr int kParts = 4;         // of a tick
 constexpr int kLooks = 12;        // in a part
 
@@ -31,12 +32,14 @@ Mat6 inverseOf(const Mat6& stiffness) noexcept {
 
 RayProxy::RayProxy(const Ray& ray, const ConvexSolid& tool, const RayBodies& bodies, const TouchedSolids& solids,
                    const ToolCoupling& coupling, double stiffness)
-    : solids_(solids),
+    : ray_(ray),
+      solids_(solids),
       coupling_(coupling),
       near_(ray, tool, bodies),
       stiffness_(stiffness),
       radius_(std::max(ray.axis_T.a.norm(), ray.axis_T.b.norm()) + ray.radius),
       points_(kMaxPoints),
+      found_(kMaxPoints),
       sticking_(stiffness, solids.friction(), solids.friction().size()) {}
 
 void RayProxy::reset() noexcept {
@@ -124,6 +127,7 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
     centre.setZero();
     near_.look(poses.X_WT, points_);
   }
+  const double clearance = near_.clearance();
   const double around = std::min(most - wayOf(centre), std::max(kSafe * near_.clearance(), kAhead));
   Vec6 at = centre;  // step of the last look
   Settled result;
@@ -153,6 +157,9 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
     if (result.exact && change <= kSettled && eased <= kEased) return result;
   }
   result.exact = false;
+  // Without balance the ray may have come too near to a surface: then it stays where it was.
+  near_.look(movedBy(poses.X_WT, u), found_);
+  if (near_.clearance() < std::min(clearance, kNearest * ray_.radius)) u.setZero();
   return result;
 }
 

@@ -50,11 +50,12 @@ class RayProxy {
   Settled settle(const ContactProblem& problem, const StepPoses& poses, double most, Vec6& u) noexcept;
   double wayOf(const Vec6& step) const noexcept { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); }
 
+  const Ray& ray_;
   const TouchedSolids& solids_;
   const ToolCoupling& coupling_;
   RaySurroundings near_;
   double stiffness_, radius_;
-  BoundedList<PressedPoint> points_;
+  BoundedList<PressedPoint> points_, found_;  // of the step; of a look that no step uses
   Sticking sticking_;
   Vec6 of_handle_ = Vec6::Zero();
   Vec6 expected_ = Vec6::Zero();  // step of this tick, as that of the last one

@@ -150,13 +150,15 @@ SegmentTouches touchesOf(const Segment& segment, const PreparedTriangle& t, cons
   }
   const Vec3 normal = t.ab.cross(t.ac);
   const double cosine = normal.dot(at.nhat);
-  if (cosine * cosine > kFlat * normal.squaredNorm()) touches = alongFace(segment, t, at.nhat);
+  if (cosine * cosine > kFlat * normal.squaredNorm())
+    touches = alongFace(segment, t, (cosine > 0 ? 1 : -1) * normal.normalized());
   if (touches.count == 0 && at.where == SegmentNearest::Where::kEdge) {
     const std::array<const Vec3*, 4> corners{&t.a, &t.b, &t.c, &t.a};
     const auto i = static_cast<std::size_t>(at.edge);
     const Vec3 e = *corners[i + 1] - *corners[i];
     if (d.cross(e).squaredNorm() < kAlong * kAlong * d.squaredNorm() * e.squaredNorm())
       touches = alongEdge(segment, *corners[i], *corners[i + 1]);
+    if (touches.count == 2) touches.place[static_cast<std::size_t>(touches.count++)] = at;
   }
   if (touches.count == 0) {
     touches.place[0] = at;

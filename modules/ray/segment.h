@@ -27,11 +27,11 @@ struct SegmentNearest {
 /// Exact up to rounding, for every shape of triangle. Thread: any; nonblocking.
 SegmentNearest nearest(const Segment& segment, const PreparedTriangle& triangle) noexcept;
 
-/// Places at which a segment may be held by one body, at most two: a segment along a flat triangle or along an edge is held
-/// at both ends of the stretch that they share.
+/// Places at which a segment may be held by one triangle: along a flat one at both ends of the stretch that they share, along
+/// an edge at the nearest points besides, since the two may cross.
 struct SegmentTouches {
-  std::array<SegmentNearest, 2> place;  ///< the first `count` are set; `distance` is negative beyond a triangle
-  int count = 0;                        ///< 1 or 2
+  std::array<SegmentNearest, 3> place;  ///< the first `count` are set; `distance` is negative beyond a triangle
+  int count = 0;                        ///< 1 to 3
 };
 /// `at`: nearest() of the two. Thread: any; nonblocking.
 SegmentTouches touchesOf(const Segment& segment, const PreparedTriangle& triangle, const SegmentNearest& at) noexcept;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/support/one_tool.h"
 
@@ -29,8 +30,9 @@ inline void expectThirdLaw(OneTool& tool, int ticks) {
 
 /// Oracle: pressed straight down on a slope of material "rough", a block of 20 mm stays where the tangent of the slope is
 /// below static friction, 0.5.
-inline void expectStickingOnASlope(const std::string& renderer, const std::string& block) {
-  for (const double degrees : {24.0, 26.0, 27.2, 29.0}) {
+inline void expectStickingOnASlope(const std::string& renderer, const std::string& block,
+                                   const std::vector<double>& angles = {24, 26, 27.2, 29}) {
+  for (const double degrees : angles) {
     SCOPED_TRACE(degrees);
     const double a = degrees * EIGEN_PI / 180;
     OneTool tool(toolWorld(block,

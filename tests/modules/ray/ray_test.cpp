@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "modules/ray/segment.h"
+#include "tests/support/alloc_lock_guard.h"
 #include "tests/support/mesh_file.h"
 #include "tests/support/tool_laws.h"
 
@@ -56,11 +60,7 @@ void expectTwoBalls(const std::string& shape, double slack) {
     const OnTwo oracle(kNear, kFar, kDepth, lean);
     const FingerContact& contact = tool.rest({{0, 0, kRod - kDepth}, turned({0, 1, 0}, degrees) * level()}, 200);
     double of_near = 0, of_far = 0;
-    for (const ToolContact& one : tool.all().contactsOf(contact)) {
-      (one.body == 0 ? of_near : of_far) += one.f_H_W.z();
-      if (getenv("DBG"))
-        printf("  body %d x %.5f z %.7f f %.4f\n", one.body, one.p_WP.x(), one.p_WP.z(), one.f_H_W.z());
-    }
+    for (const ToolContact& one : tool.all().contactsOf(contact)) (one.body == 0 ? of_near : of_far) += one.f_H_W.z();
     EXPECT_NEAR(of_near, oracle.of_near, slack * kHandle * kDepth) << degrees;
     EXPECT_NEAR(of_far, oracle.of_far, slack * kHandle * kDepth) << degrees;
     EXPECT_NEAR(contact.t_H_W.y(), -kNear * oracle.of_near - kFar * oracle.of_far, slack * kTurn * lean);
@@ -173,10 +173,135 @@ TEST(Ray, AHandThatJumpsThroughAPlateLeavesTheRodBehind) {
   }
 }
 
+// It slides a little while it is still light, and is the less inclined to slide later.
 TEST(Ray, StaysOnASlopeUpToTheAngleOfFriction) {
   test::expectStickingOnASlope(
       "ray",
-      R"(<tool euler_deg="0 90 0" stiffness="1000" turn_stiffness="2"><capsule radius="0.01" length="0.03"/></tool>)");
+      R"(<tool euler_deg="0 90 0" stiffness="1000" turn_stiffness="2"><capsule radius="0.01" length="0.03"/></tool>)",
+      {24, 26, 28, 29});
+}
+
+// Oracle: Coulomb. Sliding fast along itself and across itself, the rod feels dynamic friction against its way.
+TEST(Ray, SlidesAsCoulombSays) {
+  const char* const kMiddle =
+      R"(<tool stiffness="1000" turn_stiffness="2"><capsule radius="0.001" length="0.1"/></tool>)";
+  for (const double degrees : {0.0, 30.0, 90.0}) {
+    SCOPED_TRACE(degrees);
+    OneTool tool(rayWorld(slab("rough"), kMiddle));
+    tool.tick({{0, 0, 0.02}, level()});
+    tool.rest({{0, 0, kRod - 0.001}, level()}, 100);
+    const double a = degrees * EIGEN_PI / 180;
+    const Vec3 way(std::cos(a), std::sin(a), 0);
+    for (int i = 1; i <= 600; ++i) {
+      const Vec3 force = tool.tick({1e-4 * i * way + Vec3(0, 0, kRod - 0.001), level()}).f_H_W;
+      if (i < 200) continue;
+      EXPECT_NEAR(-force.dot(way) / force.z(), 0.4, 0.004) << i;
+      EXPECT_LT((force - force.dot(way) * way - force.z() * Vec3::UnitZ()).norm(), 0.004 * force.z()) << i;
+    }
+  }
+}
+
+// Three bodies hold it at once: a mesh, a box and a cylinder.
+TEST(Ray, RestsOnThreeBodies) {
+  const test::MeshFile mesh(makeSphere(0.01, 4), "third");
+  OneTool tool(
+      rayWorld(ball("mesh", "<mesh file=\"" + mesh.path() + "\"/>", 0.03) +
+               ball("box", R"(<box size="0.02 0.02 0.02"/>)", 0.08) +
+               R"(<body name="rod" fixed="true" material="smooth" pos="0.13 0 -0.01" euler_deg="90 0 0"><haptic>
+      <cylinder radius="0.01" length="0.04"/></haptic></body>)"));
+  tool.tick({{0, 0, 0.02}, level()});
+  const FingerContact& contact = tool.rest({{0, 0, kRod - 0.002}, turned({0, 1, 0}, 1) * level()}, 200);
+  std::array<double, 3> of{};
+  Vec3 torque = Vec3::Zero();
+  for (const ToolContact& one : tool.all().contactsOf(contact)) {
+    of.at(static_cast<std::size_t>(one.body)) += one.f_H_W.z();
+    torque += (one.p_WP - Vec3(0, 0, kRod - 0.002)).cross(one.f_H_W);
+  }
+  EXPECT_EQ(tool.state().late, 0U);
+  EXPECT_NEAR(of[0] + of[1] + of[2], contact.f_H_W.z(), 1e-9);
+  EXPECT_LT((torque - contact.t_H_W).norm(), 1e-9);
+  EXPECT_GT(std::min({of[0], of[1], of[2]}), -1e-6);
+}
+
+TEST(Ray, StartsInsideAMeshAndIsPushedOut) {
+  const test::MeshFile mesh(makeBox({0.2, 0.2, 0.1}), "inside");
+  OneTool tool(
+      rayWorld("<body name=\"slab\" fixed=\"true\" material=\"smooth\" pos=\"0.08 0 -0.05\"><haptic><mesh file=\"" +
+               mesh.path() + "\"/></haptic></body>"));
+  for (int i = 0; i < 300; ++i) {
+    const FingerContact& contact = tool.tick({{-0.06, 0, -0.002}, turned({0, 1, 0}, -1) * level()});
+    ASSERT_LE(contact.f_H_W.norm(), 8 + 1e-9) << i;
+    ASSERT_TRUE(std::isfinite(contact.t_H_W.norm()));
+  }
+  EXPECT_GT((tool.state().X_WT * Vec3(0, 0, 0.159)).z(), 0.0009);
+}
+
+// A wall that comes at 1 m/s takes the rod along, up to the limits of the handle.
+TEST(Ray, AMeshThatMovesIntoARestingRodPushesIt) {
+  const test::MeshFile mesh(makeBox({0.4, 0.4, 0.1}), "wall");
+  OneTool tool(rayWorld("<body name=\"wall\" material=\"smooth\" pos=\"0 0 -0.06\"><haptic><mesh file=\"" +
+                        mesh.path() + R"("/></haptic><physics mass="1"><box size="0.4 0.4 0.1"/></physics></body>)"));
+  const Pose hand{{0, 0, 0.02}, level()};
+  tool.rest(hand, 5);
+  for (int i = 0; i < 40; ++i) {
+    BodyMotion& wall = tool.objects().bodies[0];
+    wall.X_WB_begin.p.z() = wall.X_WB_end.p.z() = -0.06 + 0.001 * i;
+    const FingerContact& contact = tool.tick(hand);
+    ASSERT_LT(contact.f_H_W.norm(), 8);
+    EXPECT_GT(tool.state().X_WT.p.z() - kRod, wall.X_WB_end.p.z() + 0.05 - 2e-4) << i;
+  }
+}
+
+// A hand that wanders, turns and presses over real meshes: the rod never goes through a surface, its force keeps its bound.
+TEST(Ray, WandersOverRealMeshes) {
+  for (const std::string file : {"bunny.obj", "amphora.obj", "cup.obj"}) {
+    SCOPED_TRACE(file);
+    OneTool tool(
+        rayWorld("<body name=\"body\" fixed=\"true\" material=\"rough\"><haptic><mesh file=\"" PRESA_SOURCE_DIR
+                 "/config/meshes/" +
+                     file + "\"/></haptic></body>",
+                 R"(<tool stiffness="1000" turn_stiffness="2"><capsule radius="0.001" length="0.1"/></tool>)"));
+    const MeshTree& tree = *tool.world().meshes[0].haptic_tree;
+    const Vec3 middle = tree.sphereCenter();
+    tool.rest({middle + Vec3(0.2, 0, 0), Quat::Identity()}, 2);
+    int touching = 0, through = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const double t = 1e-3 * i;
+      const Vec3 out(std::cos(0.9 * t), std::sin(0.9 * t), 0.8 * std::sin(0.37 * t));
+      const Pose hand{middle + (0.05 + 0.02 * std::sin(3.1 * t)) * out.normalized(),
+                      turned({std::sin(0.5 * t), std::cos(0.7 * t), 0.3}, 80 * std::sin(0.61 * t))};
+      const FingerContact& contact = tool.tick(hand);
+      ASSERT_LT(contact.f_H_W.norm(), 8 + 1e-9) << i;
+      touching += tool.state().points > 0;
+      if (i % 10 != 0) continue;
+      const Pose& X_WT = tool.state().X_WT;
+      const Segment axis{X_WT * Vec3(0, 0, -0.05), X_WT * Vec3(0, 0, 0.05)};
+      tree.forEachWithin(X_WT.p, 0.06, [&](std::int32_t f) {
+        const MeshTree::Facet& facet = tree.facet(f);
+        const PreparedTriangle t3(tree.corner(facet, 0), tree.corner(facet, 1), tree.corner(facet, 2));
+        through += nearest(axis, t3).where == SegmentNearest::Where::kCrossing;
+      });
+    }
+    std::printf("%s: touching in %d ticks of 20000, late %u, coarse %u, through %d\n", file.c_str(), touching,
+                tool.state().late, tool.state().coarse, through);
+    EXPECT_GT(touching, 5000);
+    EXPECT_EQ(through, 0);
+    EXPECT_LT(tool.state().late, 1000U);
+  }
+}
+
+// The haptic thread runs all of this.
+TEST(Ray, NeitherAllocatesNorLocks) {
+  const test::MeshFile mesh(makeSphere(0.05, 5), "guarded");
+  OneTool tool(rayWorld(mesh.body("ball", "rough") + slab("rough"),
+                        R"(<tool stiffness="1000" turn_stiffness="2"><capsule radius="0.001" length="0.1"/></tool>)"));
+  tool.rest({{0, 0, 0.06}, level()}, 50);
+  const RealTimeGuard guard;
+  for (int i = 0; i < 3000; ++i)
+    tool.tick({{0.02 * std::sin(0.002 * i), 0.01 * std::sin(0.003 * i), 0.05},
+               turned({0, 1, 0}, 5 * std::sin(0.01 * i)) * level()});
+  EXPECT_EQ(guard.violations(), 0) << guard.first();
+  EXPECT_GT(tool.state().points, 0U);
 }
 
 TEST(Ray, GivesTheBodyTheOppositeOfWhatTheHandFeels) {
