@@ -15,10 +15,11 @@ constexpr double kAhead = 2e-5;      // places are looked for this far beyond th
 constexpr double kSettled = 5e-6;    // change of the pose at which the looks end [m]
 constexpr double kRoom = 1e-4;       // of the first part, beyond the last tick's way times kGrowth [m]
 constexpr double kGrowth = 1.5;
-constexpr double kEased = 0.005;  // the same of friction, all places together [N]
-constexpr double kNearest = 0.5;  // of the radius: clearance of the axis [-]
-constexpr int kParts = 4;         // of a tick
-constexpr int kLooks = 12;        // in a part
+constexpr double kEased = 0.005;  // change of the friction of all places together at which the looks end [N]
+constexpr double kNearest =
+    0.5;                    // clearance of the axis below which a part without balance is taken back, of the radius
+constexpr int kParts = 4;   // of a tick
+constexpr int kLooks = 12;  // in a part
 
 /// The handle resists motion and turn apart from each other.
 Mat6 inverseOf(const Mat6& stiffness) noexcept {
@@ -64,16 +65,14 @@ RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
   carry(X_WT);
   near_.place(input.touchables, solids_.X_WB());
   Vec6 moved = Vec6::Zero();
-  // a first part as long as the last tick makes one expect: where the ray is held, few places are then looked at
+  // the first part is about as long as the last tick was, so that fewer triangles are looked at
   double farthest = kRoom + kGrowth * wayOf(expected_);
   for (int part = 0; part < kParts && !move(input, farthest, X_WT, moved, result); ++part) {
     expected_.setZero();
     farthest = kFarthest;
   }
   expected_ = moved;
-  Vec6 handle;
-  handle << input.v_WH, input.w_WH;
-  of_handle_ = couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period).wrench;
+  of_handle_ = handleAt(input, X_WT, moved).wrench;
   const auto* most = std::max_element(points_.begin(), points_.end(),
                                       [](const PressedPoint& a, const PressedPoint& b) { return a.force < b.force; });
   carried_ = most != points_.end() && most->force > 0;
@@ -84,10 +83,14 @@ RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
   return result;
 }
 
-bool RayProxy::move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& moved, Step& result) noexcept {
+CouplingForce RayProxy::handleAt(const ToolInput& input, const Pose& X_WT, const Vec6& moved) const noexcept {
   Vec6 handle;
   handle << input.v_WH, input.w_WH;
-  const CouplingForce force = couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period);
+  return couplingForce(coupling_, input.X_WH, X_WT, moved - input.period * handle, input.period);
+}
+
+bool RayProxy::move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& moved, Step& result) noexcept {
+  const CouplingForce force = handleAt(input, X_WT, moved);
   const Mat6 inverse = inverseOf(force.stiffness);
   const ContactProblem problem{force.stiffness, force.wrench, stiffness_, &inverse};
   Vec6 u = inverse * problem.r;
@@ -119,8 +122,8 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
   const bool rough = std::any_of(solids_.friction().begin(), solids_.friction().end(),
                                  [](const FrictionCoefficients& one) { return one.mu_static > 0; });
   const Vec6 free = u;
-  // The first look is at the pose that the last step leads to one expects. No point of the axis may move farther than its
-  // clearance there, neither on the way to it nor from it.
+  // The first look is at the pose that the last tick makes likely. No point of the axis may move farther than its clearance
+  // there, neither on the way to it nor from it.
   Vec6 centre = wayOf(expected_) <= most ? expected_ : Vec6(Vec6::Zero());
   near_.look(movedBy(poses.X_WT, centre), points_);
   if (wayOf(centre) > kSafe * near_.clearance()) {
@@ -128,7 +131,7 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
     near_.look(poses.X_WT, points_);
   }
   const double clearance = near_.clearance();
-  const double around = std::min(most - wayOf(centre), std::max(kSafe * near_.clearance(), kAhead));
+  const double around = std::min(most - wayOf(centre), std::max(kSafe * clearance, kAhead));
   Vec6 at = centre;  // step of the last look
   Settled result;
   for (int look = 0; look < kLooks; ++look) {

@@ -27,26 +27,26 @@ class RayProxy {
   Step step(const ToolInput& input, Pose& X_WT) noexcept;
   void reset() noexcept;  ///< starts anew, touching nothing
 
-  const BoundedList<PressedPoint>& points() const noexcept {
-    return points_;
-  }                                                                ///< after the step, from the tool's origin
+  /// After the step, from the tool's origin.
+  const BoundedList<PressedPoint>& points() const noexcept { return points_; }
   const Sticking& sticking() const noexcept { return sticking_; }  ///< after the step
-  const Vec6& ofHandle() const noexcept {
-    return of_handle_;
-  }                                                   ///< wrench of the handle about the tool's origin, after it
+  /// Wrench of the handle about the tool's origin, after the step.
+  const Vec6& ofHandle() const noexcept { return of_handle_; }
   double radius() const noexcept { return radius_; }  ///< of the ball around the tool's origin [m]
 
  private:
   void carry(Pose& X_WT) noexcept;
+  /// Force of the handle on the ray at X_WT, which moved by `moved` in this tick.
+  CouplingForce handleAt(const ToolInput& input, const Pose& X_WT, const Vec6& moved) const noexcept;
   /// Part of a tick in which the ray cannot come past a surface, and no point of it moves farther than `farthest` [m].
   /// True: it has arrived.
   bool move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& moved, Step& result) noexcept;
-  /// Finds the step `u` and its points. `u`: that of the handle alone; `most`: how far the step may go [m].
-  /// False: points and forces are not in balance, or the step was too long.
+  /// How settle() ended.
   struct Settled {
     bool exact = false;    ///< points and forces are in balance
     bool arrived = false;  ///< no bound cut the step short
   };
+  /// Finds the step and its points. `u`: first that of the handle alone; `most`: how far the step may go [m].
   Settled settle(const ContactProblem& problem, const StepPoses& poses, double most, Vec6& u) noexcept;
   double wayOf(const Vec6& step) const noexcept { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); }
 
