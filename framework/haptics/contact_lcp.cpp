@@ -7,14 +7,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace presa {
 namespace {
 
 constexpr int kMaxPivots = 40;
-constexpr std::size_t kMaxContacts = 256;  // as the manifest has it
-constexpr int kBisections = 30;            // of a way, when E rises before its end
-constexpr double kFits = 1e-12;            // gap of a contact that counts as none [m]
+constexpr int kBisections = 30;  // of a way, when E rises before its end
+constexpr double kFits = 1e-12;  // gap of a contact that counts as none [m]
 
 Vec6 rowOf(const PressedPoint& contact) noexcept {
   Vec6 row;
@@ -79,8 +79,8 @@ bool sameSet(const BoundedList<PressedPoint>& contacts, const Vec6& u, const Vec
 double lowest(const ContactProblem& problem, const BoundedList<PressedPoint>& contacts, const Vec6& u,
               const Vec6& way) noexcept {
   const double linear = way.dot(problem.Q * u - problem.r), square = way.dot(problem.Q * way);
-  std::array<double, kMaxContacts> gap, closing;
-  const std::size_t count = std::min(contacts.size(), kMaxContacts);
+  std::array<double, kMaxPressed> gap, closing;
+  const std::size_t count = std::min(contacts.size(), kMaxPressed);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec6 row = rowOf(contacts[i]);
     gap[i] = row.dot(u) + contacts[i].gap;

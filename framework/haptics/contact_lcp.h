@@ -6,16 +6,18 @@ namespace presa {
 
 /// A point of contact of a light tool in a step. Vectors along the world's axes.
 struct PressedPoint {
-  Vec3 p = Vec3::Zero();         ///< from the tool's origin [m]
-  Vec3 nhat = Vec3::UnitZ();     ///< unit, body into tool
-  double gap = 0;                ///< along nhat before the step; negative: overlap [m]
-  std::uint32_t pair = 0;        ///< its pair of parts (ConvexPairs::indexOf)
+  Vec3 p = Vec3::Zero();      ///< from the tool's origin [m]
+  Vec3 nhat = Vec3::UnitZ();  ///< unit, body into tool
+  double gap = 0;             ///< along nhat before the step; negative: overlap [m]
+  std::uint32_t pair = 0;  ///< friction holds all points of a pair together: of parts (ConvexPairs::indexOf), or a body
   std::uint32_t solid = 0;       ///< its body, by solid
   double force = 0;              ///< along nhat, the problem's solution [N]
   Vec3 friction = Vec3::Zero();  ///< on the tool, square to nhat [N]
   double hold = 0;               ///< stiffness of the spring that stands for friction in the problem; 0: none [N/m]
-  double stretch = 0;            ///< of that spring after the step [m]
+  double stretch = 0;            ///< way along the surface since the pose that friction holds, after the step [m]
 };
+
+inline constexpr std::size_t kMaxPressed = 256;  ///< points of a problem
 
 /// Adds a point; in a full list it takes the place of the highest one, if it is deeper.
 void addDeepest(const PressedPoint& point, BoundedList<PressedPoint>& points) noexcept;

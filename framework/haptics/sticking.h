@@ -27,11 +27,13 @@ class Sticking {
 
   /// Begins a step: every pair is thought to hold; if `steady`, those that slid in the last step to slide on as fast.
   void begin(bool steady = false) noexcept;
-  /// Adds friction to the problem, for the forces of `contacts`: a spring where it holds, a force where it slides.
+  /// Adds friction to the problem, for the forces of `contacts`: a spring where it holds, a force where it slides, or a
+  /// weak spring where that force changes the way.
   void addTo(ContactProblem& problem, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept;
   /// Friction of the contacts of pairs that were found to slide in this step, for their forces and the step u.
   void slide(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) const noexcept;
-  /// Finds the friction of all contacts after the step u. False: a pair slides that was thought to hold.
+  /// Finds the friction of all contacts after the step u. False: a pair slides that was thought to hold, or the friction in
+  /// the problem was more than 2 % of its limit off.
   bool update(const Vec6& u, const StepPoses& poses, BoundedList<PressedPoint>& contacts) noexcept;
   /// Ends the step, with the tool at X_WT: friction holds what touches there, and follows what slides.
   void keep(const Pose& X_WT, const StepPoses& poses, const BoundedList<PressedPoint>& contacts) noexcept;

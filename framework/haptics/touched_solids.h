@@ -19,7 +19,6 @@ class TouchedSolids {
   const std::vector<Pose>& X_WB() const noexcept { return X_WB_; }  ///< by solid, since place()
   /// By solid, since place(). The reference stays valid.
   const std::vector<FrictionCoefficients>& friction() const noexcept { return friction_; }
-  std::int32_t bodyOf(std::size_t solid) const noexcept { return bodies_[solid]; }  ///< index into Scene::bodies
 
   /// The tool whose points press.
   struct Pressing {
@@ -31,8 +30,8 @@ class TouchedSolids {
     double lever = 0;                         ///< places nearer to each other hardly give a torque [m]
   };
   /// Adds the points that press to `forces`, their places from the tool's origin, and balances them with `of_handle`, the
-  /// wrench of the handle on the tool about its origin. A body is squeezed by four times what the handle can press with
-  /// all its levers at the most. False: no point presses.
+  /// wrench of the handle on the tool about its origin. The max squeeze of a body is four times what the handle can press
+  /// with all its levers. False: no point presses.
   bool list(const Pressing& tool, const Vec6& of_handle, BoundedList<ToolForce>& forces) noexcept;
 
  private:

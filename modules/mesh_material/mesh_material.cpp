@@ -28,7 +28,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
-/// What the element says fits the file.
+/// Throws std::invalid_argument if the file lacks the part or the colours that the element names.
 void check(const PluginElement& element, const MeshShares& shares, const World& world) {
   const Body& body = world.scene.bodies[static_cast<std::size_t>(element.body)];
   const std::string mesh = "mesh " + std::get<MeshRef>(body.haptic->shape).file;

@@ -1,9 +1,9 @@
 #include "modules/mesh_material/mesh_shares.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -80,7 +80,7 @@ std::vector<MaterialShare> colourShares(const MaterialShare& black, const TriMes
   });
 }
 
-/// The steepest triangle by the angle of its force, and by how much it is too steep.
+/// Throws std::invalid_argument if the force of a triangle leans too far: the steepest one, and by how much.
 void requireGentle(const MeshShares& shares) {
   const TriMesh& mesh = *shares.mesh;
   double worst = 0;

@@ -27,8 +27,8 @@ struct MeshShares {
 std::vector<const PluginElement*> elementsBeside(const PluginElement& element, const World& world);
 
 /// The shares of the body of an element, from the file of its haptic mesh. Objects that ask for the same ones, as long
-/// as one of them lives, get the same table. Throws std::invalid_argument: the body is no mesh from a file, which
-/// cannot be read again as it was; the stiffness changes too steeply. Thread: main or view.
+/// as one of them lives, get the same table. Throws std::invalid_argument: the body is no mesh from a file;
+/// the file has changed; the stiffness changes too steeply. Thread: main or view.
 std::shared_ptr<const MeshShares> sharesOf(const PluginElement& element, const World& world);
 
 }  // namespace presa

@@ -1,7 +1,7 @@
 #include "modules/mesh_material/touched_share.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
 
 #include "framework/geometry/closest_point.h"
 

@@ -24,7 +24,7 @@ class ShareFinder {
   TouchedShare at(const SurfaceInput& input, std::int32_t body) const noexcept;
   /// At the triangle nearest to p_B, within `reach`. Thread: any.
   TouchedShare near(const Vec3& p_B, double reach) const noexcept;
-  const MeshShares& shares() const noexcept { return *shares_; }
+  const MeshShares& shares() const noexcept { return *shares_; }  ///< of the mesh
 
  private:
   TouchedShare nearest(const Vec3& p_B, double reach, const Vec3& nhat_B) const noexcept;

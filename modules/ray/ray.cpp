@@ -1,5 +1,6 @@
 // A line in the hand, held by several bodies at once. Method: modules/ray/README.md.
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,7 +12,21 @@
 namespace presa {
 namespace {
 
-constexpr double kLever = 1e-3;  // [m]
+constexpr double kLever = 1e-3;  // distance below which two places share a torque only weakly [m]
+constexpr double kSqueeze = 4;   // as TouchedSolids::list()
+
+/// Throws std::invalid_argument: a hand could press a surface so deep into the ray that it comes through.
+void requireStiff(const Ray& ray, const DeviceRole& role, double stiffness) {
+  const ToolCoupling& handle = role.tool->coupling;
+  const double radius = std::max(ray.axis_T.a.norm(), ray.axis_T.b.norm()) + ray.radius,
+               needed =
+                   kSqueeze * (handle.max_force + handle.max_torque / radius) / (RayProxy::kMaxOverlap * ray.radius);
+  if (stiffness >= needed) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "a stiffness of %.3g N/m lets surfaces into a ray of this radius: at least %.3g N/m",
+                stiffness, needed);
+  throw std::invalid_argument("the tool of '" + role.role + "': " + text);
+}
 
 class RayRenderer final : public ToolRenderer {
  public:
@@ -42,6 +57,8 @@ Ray rayOf(const DeviceRole& role) {
   if (capsule == nullptr)
     throw std::invalid_argument("the tool of '" + role.role +
                                 "' is no line: a ray is a <capsule>; light_cursor and pointshell take any shape");
+  if (capsule->radius < 10 * RayProxy::kMinStep)
+    throw std::invalid_argument("the tool of '" + role.role + "' is too thin for a ray: a radius of at least 0.2 mm");
   const Vec3 half(0, 0, 0.5 * capsule->length);
   return {{geometry.X_BG * Vec3(-half), geometry.X_BG * half}, capsule->radius};
 }
@@ -52,6 +69,7 @@ RayRenderer::RayRenderer(const PluginElement& settings, const World& world)
     held_.push_back(nullptr);
     if (!scene_.devices[d].tool) continue;
     held_[d] = std::make_unique<Held>(rayOf(scene_.devices[d]), convexTool(world, d, {}));
+    requireStiff(held_[d]->ray, scene_.devices[d], stiffness_);
     held_[d]->proxy = std::make_unique<RayProxy>(held_[d]->ray, held_[d]->capsule, bodies_, solids_,
                                                  scene_.devices[d].tool->coupling, stiffness_);
   }
@@ -76,8 +94,8 @@ void RayRenderer::touch(const ToolInput& input, BoundedList<ToolForce>& forces, 
 std::string RayRenderer::what() const {
   std::size_t triangles = 0;
   for (const RayBodies::Mesh& mesh : bodies_.meshes) triangles += mesh.tree->mesh().triangles.size();
-  return "hold lines off " + std::to_string(bodies_.shapes.size()) + " shapes and " +
-         std::to_string(bodies_.meshes.size()) + " meshes of " + std::to_string(triangles) + " triangles";
+  return "hold lines off the bodies: shapes: " + std::to_string(bodies_.shapes.size()) +
+         ", meshes: " + std::to_string(bodies_.meshes.size()) + ", of " + std::to_string(triangles) + " triangles";
 }
 
 const ToolRendererPlugin kPlugin{

@@ -1,7 +1,7 @@
-// The ray is where the energy of the handle's springs is least among the poses that the bodies allow. Its distance from a
-// body is taken as linear around a pose, the contact problem gives a better pose, and the distances are found there again:
-// Newton's method on the exact gaps of the few triangles that hold it. Within a step no point of the axis moves farther
-// than the axis was from everything at its beginning, so that it cannot come past a surface, however thin.
+// The ray takes the pose of minimum energy of the handle's springs among those that the bodies allow. Its distance from
+// a body is linear around a pose, the contact problem gives a better pose, and the distances are found there again:
+// Newton's method on the exact gaps of the few triangles that hold it. In a part of a tick no point of the axis moves
+// farther than the axis was from everything at one pose of that part, so that it cannot cross a surface, however thin.
 #include "modules/ray/ray_proxy.h"
 
 #include <algorithm>
@@ -9,17 +9,16 @@
 namespace presa {
 namespace {
 
-constexpr double kFarthest = 0.004;  // way of a point in a part of a tick [m]
-constexpr double kSafe = 0.9;        // of the clearance, which a part of a tick uses at most
-constexpr double kAhead = 2e-5;      // places are looked for this far beyond the way [m]
-constexpr double kSettled = 5e-6;    // change of the pose at which the looks end [m]
-constexpr double kRoom = 1e-4;       // of the first part, beyond the last tick's way times kGrowth [m]
+constexpr double kFarthest = 0.004;            // way of a point in a part of a tick [m]
+constexpr double kSafe = 0.9;                  // max share of the clearance that a part of a tick uses
+constexpr double kAhead = RayProxy::kMinStep;  // places are looked for this far beyond the way [m]
+constexpr double kSettled = 5e-6;              // change of the pose at which the looks end [m]
+constexpr double kRoom = 1e-4;                 // of the first part, beyond the last tick's way times kGrowth [m]
 constexpr double kGrowth = 1.5;
 constexpr double kEased = 0.005;  // change of the friction of all places together at which the looks end [N]
-constexpr double kNearest =
-    0.5;                    // clearance of the axis below which a part without balance is taken back, of the radius
-constexpr int kParts = 4;   // of a tick
-constexpr int kLooks = 12;  // in a part
+constexpr double kNearest = 1 - RayProxy::kMaxOverlap;  // of the radius: with less clearance a part is taken back
+constexpr int kParts = 4;                               // of a tick
+constexpr int kLooks = 12;                              // in a part
 
 /// The handle resists motion and turn apart from each other.
 Mat6 inverseOf(const Mat6& stiffness) noexcept {
@@ -62,16 +61,19 @@ void RayProxy::carry(Pose& X_WT) noexcept {
 
 RayProxy::Step RayProxy::step(const ToolInput& input, Pose& X_WT) noexcept {
   Step result;
+  const Pose before = X_WT;
   carry(X_WT);
   near_.place(input.touchables, solids_.X_WB());
-  Vec6 moved = Vec6::Zero();
+  Vec6 carried;
+  carried << X_WT.p - before.p, turnBetween(before.q, X_WT.q);
+  Vec6 moved = carried;
   // the first part is about as long as the last tick was, so that fewer triangles are looked at
   double farthest = kRoom + kGrowth * wayOf(expected_);
   for (int part = 0; part < kParts && !move(input, farthest, X_WT, moved, result); ++part) {
     expected_.setZero();
     farthest = kFarthest;
   }
-  expected_ = moved;
+  expected_ = moved - carried;
   of_handle_ = handleAt(input, X_WT, moved).wrench;
   const auto* most = std::max_element(points_.begin(), points_.end(),
                                       [](const PressedPoint& a, const PressedPoint& b) { return a.force < b.force; });
@@ -119,8 +121,10 @@ bool RayProxy::move(const ToolInput& input, double farthest, Pose& X_WT, Vec6& m
 
 RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPoses& poses, double most,
                                    Vec6& u) noexcept {
-  const bool rough = std::any_of(solids_.friction().begin(), solids_.friction().end(),
-                                 [](const FrictionCoefficients& one) { return one.mu_static > 0; });
+  const bool rough =
+      std::any_of(solids_.friction().begin(), solids_.friction().end(),
+                  [](const FrictionCoefficients& one) { return one.mu_static > 0 || one.mu_dynamic > 0; });
+  if (!rough) sticking_.letGo();
   const Vec6 free = u;
   // The first look is at the pose that the last tick makes likely. No point of the axis may move farther than its clearance
   // there, neither on the way to it nor from it.
@@ -157,13 +161,24 @@ RayProxy::Settled RayProxy::settle(const ContactProblem& problem, const StepPose
     for (const PressedPoint& one : points_) friction += one.friction;
     const double eased = (friction - friction_).norm();
     friction_ = friction;
-    if (result.exact && change <= kSettled && eased <= kEased) return result;
+    if (result.exact && change <= kSettled && eased <= kEased) break;
+    if (look + 1 < kLooks) continue;
+    result.exact = false;
+    near_.look(movedBy(poses.X_WT, u), found_);
   }
-  result.exact = false;
-  // Without balance the ray may have come too near to a surface: then it stays where it was.
-  near_.look(movedBy(poses.X_WT, u), found_);
-  if (near_.clearance() < std::min(clearance, kNearest * ray_.radius)) u.setZero();
+  if (near_.clearance() < std::min(clearance, kNearest * ray_.radius)) {
+    stay(problem, poses, u);
+    result.exact = false;
+  }
   return result;
+}
+
+// The forces are those that the handle asks for at the pose where the ray stays.
+void RayProxy::stay(const ContactProblem& problem, const StepPoses& poses, Vec6& u) noexcept {
+  u.setZero();
+  near_.look(poses.X_WT, points_);
+  Vec6 wanted = u;
+  solveContacts(problem, points_, wanted);
 }
 
 }  // namespace presa

@@ -13,6 +13,8 @@ namespace presa {
 class RayProxy {
  public:
   static constexpr std::size_t kMaxPoints = 64;  ///< of contact in a step
+  static constexpr double kMinStep = 2e-5;       ///< way that a part of a tick may make whatever the clearance [m]
+  static constexpr double kMaxOverlap = 0.5;     ///< of the radius: max depth of a surface in the ray
 
   /// `stiffness`: of a point of contact [N/m]. `tool` is the same capsule as `ray`. All but the stiffness must outlive it.
   RayProxy(const Ray& ray, const ConvexSolid& tool, const RayBodies& bodies, const TouchedSolids& solids,
@@ -48,6 +50,8 @@ class RayProxy {
   };
   /// Finds the step and its points. `u`: first that of the handle alone; `most`: how far the step may go [m].
   Settled settle(const ContactProblem& problem, const StepPoses& poses, double most, Vec6& u) noexcept;
+  /// The part of the tick is taken back: the ray came too near to a surface.
+  void stay(const ContactProblem& problem, const StepPoses& poses, Vec6& u) noexcept;
   double wayOf(const Vec6& step) const noexcept { return step.head<3>().norm() + radius_ * step.tail<3>().norm(); }
 
   const Ray& ray_;

@@ -10,7 +10,7 @@
 
 namespace presa {
 
-/// What a ray is: the axis of a capsule and its radius.
+/// A ray: the axis of a capsule, and its radius.
 struct Ray {
   Segment axis_T;     ///< in the frame T of the handle
   double radius = 0;  ///< [m], > 0
@@ -49,7 +49,7 @@ class RaySurroundings {
   /// Fills `points` with the places at which bodies hold the ray at X_WT or nearly do; `p` in the orientation that the step
   /// begins with, `gap` at X_WT.
   void look(const Pose& X_WT, BoundedList<PressedPoint>& points) noexcept;
-  /// Distance of the axis from all bodies at the last look(), as far as `reach` [m].
+  /// Distance of the axis from all bodies at the last look(), as far as radius and `reach` together [m].
   double clearance() const noexcept { return clearance_; }
   /// Ends a step at the pose of the last look(): places that it does not touch there are forgotten.
   void keep() noexcept;

@@ -1,5 +1,5 @@
-// Distance of a segment and a triangle: the least of the ends of the segment against the triangle and the segment against
-// the three edges [Ericson2004 5.1.9], or zero where the segment goes through the triangle.
+// Distance of a segment and a triangle: the minimum of the ends of the segment against the triangle and the segment
+// against the three edges [Ericson2004 5.1.9], or zero where the segment goes through the triangle.
 #include "modules/ray/segment.h"
 
 #include <algorithm>
@@ -48,7 +48,8 @@ bool goesThrough(const Segment& segment, const PreparedTriangle& t, const Vec3& 
   s = from / (from - to);
   const Vec3 x = segment.at(s);
   if ((x - t.a).squaredNorm() > longest) return false;
-  return (closestOnTriangle(x, t) - x).squaredNorm() <= 1e-24 * longest;
+  // rounding of the corners, and of x far from the origin
+  return (closestOnTriangle(x, t) - x).squaredNorm() <= 1e-24 * longest + 1e-30 * x.squaredNorm();
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace {
 constexpr double kLonger = 1 + 1e-6;  // covers the rounding of single precision
 constexpr int kSpare = 32;            // items by which a front may grow beyond twice its first size
 
-/// Point of the segment nearest to a node's box, found by Newton's method: the squared distance is piecewise quadratic and
-/// convex along the segment. Whatever point it is, the tangent there bounds the distance of every point from below.
+/// Point of the segment nearest to a node's box, found by Newton's method: the squared distance is piecewise quadratic
+/// and convex along the segment. The tangent at any point bounds the distance of every point from below.
 double nearestToBox(const MeshTree::Node& node, const Segment& segment) noexcept {
   const Mat3 axes = MeshTree::axesOf(node);
   const Vec3 from = axes.transpose() * (segment.a - MeshTree::centerOf(node)),
@@ -64,7 +64,7 @@ void SegmentFront::bind(int item, const TangentBound& bound) noexcept {
   items_[i].offset = bound.offset;
 }
 
-// Whatever is nearer than the limit to the item lies in the ball of radius limit + radius around its centre.
+// Points nearer than the limit to the item lie in the ball of radius limit + radius around its centre.
 double SegmentFront::boundOf(int item, const Query& query, double limit) const noexcept {
   const Item& one = items_[static_cast<std::size_t>(item)];
   const double slope = one.nhat.dot(query.d), at_a = one.nhat.dot(query.segment.a) + one.offset;
@@ -102,9 +102,9 @@ void SegmentFront::focus(const Segment& segment, double radius, double ahead) no
   if (radius + movedFrom(segment) <= focus_radius_ && !full_) return;
   full_ = false;
   radius += ahead;
-  focus_radius_ = radius;
   if (fresh_ > 0 && count_ > 2 * fresh_ + kSpare) seed(*tree_);
   focused_ = segment;
+  focus_radius_ = radius;
   const Query query(segment);
   near_count_ = 0;
   for (int item = 0; item < count_; ++item) {
@@ -152,7 +152,8 @@ void SegmentFront::expand(int item, const Query& query, Found& best, double& lim
   if (!open(item)) {
     const Segment& segment = query.segment;
     const double s = nearestToBox(tree_->node(ref), segment), least = std::max(0.0, boundOf(item, query, limit));
-    const Vec3 nhat = MeshTree::axesOf(tree_->node(ref)).col(0);
+    const Vec3& away = items_[static_cast<std::size_t>(item)].nhat;  // zero inside the box
+    const Vec3 nhat = away.squaredNorm() > 0 ? away : Vec3(MeshTree::axesOf(tree_->node(ref)).col(0));
     limit = least - kSlack;
     best = {ref, {.nhat = nhat, .distance = least, .s = s, .on_body = segment.at(s) - least * nhat}};
     return;
@@ -190,7 +191,7 @@ SegmentFront::Found SegmentFront::nearestOf(const Segment& segment, double limit
   return best;
 }
 
-// Whatever lowers the limit comes first: the item of the last query; without one, the item with the lowest bound.
+// The item of the last query comes first, or the one with the lowest bound: it lowers the limit for the others.
 void SegmentFront::search(const Query& query, Found& best, double& limit) noexcept {
   const int first = last_ >= 0 ? last_ : lowest(query, limit), count = near_count_;
   if (first < 0) return;

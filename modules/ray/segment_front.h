@@ -18,10 +18,9 @@ class SegmentFront {
   static constexpr int kCapacity = 2048;  ///< items: triangles and nodes
   static constexpr double kSlack = 2e-8;  ///< by which a triangle may be nearer than the one that is found [m]
 
-  SegmentFront();
+  SegmentFront();  ///< allocates
 
-  void seed(const MeshTree& tree) noexcept;                                  ///< restarts from the root of a mesh
-  bool isOf(const MeshTree& tree) const noexcept { return tree_ == &tree; }  ///< seeded with it
+  void seed(const MeshTree& tree) noexcept;  ///< restarts from the root of a mesh
 
   /// Selects the items that may come within `radius` of the segment, and of one that moves `ahead` farther; nearestOf()
   /// examines only these until the next call. Restarts from the root when most items are left behind.
@@ -44,7 +43,6 @@ class SegmentFront {
   }
   /// True when a node found no room for its children at the last nearestOf(), which then took it as a solid box.
   bool full() const noexcept { return full_; }
-  int count() const noexcept { return count_; }  ///< items of the front
 
  private:
   /// A triangle or a node: one line of the cache.

@@ -16,7 +16,7 @@ TEST(Allocation, NoTickAllocates) {
        {"config/scenes/cube.xml", "config/scenes/pinch_and_lift.xml", "config/scenes/layers.xml",
         "config/scenes/perturbation.xml", "config/scenes/texture_image.xml", "config/scenes/material_image.xml",
         "config/scenes/mesh_material.xml", "config/scenes/peg_in_hole.xml", "config/scenes/thimbles.xml",
-        "config/scenes/square_peg.xml"}) {
+        "config/scenes/square_peg.xml", "config/scenes/ray.xml"}) {
     Diagnostics diagnostics;
     Loaded loaded = loadWorld({test::source(scene), "", {}}, {}, diagnostics);
     ASSERT_FALSE(diagnostics.hasErrors()) << diagnostics.text();

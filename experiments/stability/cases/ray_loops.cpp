@@ -98,13 +98,12 @@ Case make() {
   result.name = "ray_loops";
   result.title = "A rod goes round on the meshes of a cup and a ball";
   result.source =
-      "A line is held at its ends, along its side and on edges by turns: where one takes over from another, a force "
-      "that "
-      "is not the slope of one energy would feed the hand.";
+      "A line is held at its ends, along its side and on edges by turns. Where one takes over from another, a force "
+      "that is not the slope of one energy would feed the hand.";
   result.oracle = "Over closed paths the hand gains no energy, and no place that takes over makes a jump.";
   result.scene = "ray_loops.xml";
   for (const int subdivisions : {3, 5, 7}) {
-    for (const std::string friction : {"0", "0.3"}) {
+    for (const std::string& friction : {std::string("0"), number(kMu)}) {
       for (const std::string rate : {"1000", "4000"}) {
         Trial trial;
         trial.parameters = {{"triangles of the ball", std::to_string(20 << (2 * subdivisions))},

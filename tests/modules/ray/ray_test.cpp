@@ -309,6 +309,34 @@ TEST(Ray, GivesTheBodyTheOppositeOfWhatTheHandFeels) {
   test::expectThirdLaw(tool, 1000);
 }
 
+TEST(Ray, RefusesWhatSurfacesCouldComeThrough) {
+  EXPECT_ANY_THROW(OneTool(rayWorld(slab(), R"(<tool><capsule radius="0.0001" length="0.1"/></tool>)")));
+  const auto soft = [](const char* stiffness) {
+    return test::toolWorld(kRodTool, slab(), std::string("<ray stiffness=\"") + stiffness + "\"/>", "ray");
+  };
+  EXPECT_ANY_THROW(OneTool(soft("20000")));
+  EXPECT_NO_THROW(OneTool(soft("200000")));
+}
+
+// Oracle: nothing moves against anything. Hand, rod and a slab under it travel together; the handle has dampers.
+TEST(Ray, TravelsWithABodyWithoutDrag) {
+  OneTool tool(rayWorld(R"(<body name="slab" material="rough" pos="0 0 -0.05"><haptic><box size="0.4 0.4 0.1"/></haptic>
+    <physics mass="1"><box size="0.4 0.4 0.1"/></physics></body>)",
+                        R"(<tool stiffness="1000" turn_stiffness="2" damping="5" turn_damping="0.01">
+    <capsule radius="0.001" length="0.1"/></tool>)"));
+  tool.tick({{0, 0, 0.02}, level()});
+  tool.rest({{0, 0, kRod - 0.001}, level()}, 200);
+  for (int i = 1; i <= 200; ++i) {
+    const double x = 5e-5 * i;
+    BodyMotion& slab = tool.objects().bodies[0];
+    slab.X_WB_begin.p.x() = slab.X_WB_end.p.x() = x;
+    const Vec3 force = tool.tick({{x, 0, kRod - 0.001}, level()}).f_H_W;
+    if (i < 10) continue;
+    EXPECT_NEAR(force.x(), 0, 1e-3) << i;
+    EXPECT_NEAR(force.z(), 1, 0.01) << i;
+  }
+}
+
 TEST(Ray, RefusesAToolThatIsNoLine) {
   EXPECT_ANY_THROW(OneTool(rayWorld(slab(), R"(<tool><box size="0.02 0.02 0.02"/></tool>)")));
 }
