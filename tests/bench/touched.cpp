@@ -223,7 +223,8 @@ void Rig::fillPass() {
       // a line lies along the way, square to the radius
       const Vec3 along = way - way.dot(p_WH) / p_WH.squaredNorm() * p_WH;
       const Quat q_WH = along.norm() > 0 ? Quat(Quat::FromTwoVectors(Vec3::UnitZ(), along)) : Quat(Quat::Identity());
-      held_.push_back({p_WH, way / 1e-3, q_WH});
+      held_.push_back({p_WH, way / 1e-3});
+      if (world_->scene.devices[f].tool) turns_.push_back(q_WH);
     }
   }
 }
@@ -263,8 +264,9 @@ void Rig::moveFingers(std::ptrdiff_t tick) noexcept {
     const Held& held = held_[static_cast<std::size_t>(tick + kLead) * fingers + f];
     device.fingers[f].p_WH = held.p_WH;
     device.fingers[f].v_WH = held.v_WH;
+    if (turns_.empty()) continue;
     device.fingers[f].oriented = true;
-    device.fingers[f].q_WT = held.q_WH;
+    device.fingers[f].q_WT = turns_[static_cast<std::size_t>(tick + kLead) * fingers + f];
   }
 }
 

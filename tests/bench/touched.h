@@ -89,9 +89,9 @@ class Rig {
   Watcher* watcher_ = nullptr;
   struct Held {
     Vec3 p_WH, v_WH;
-    Quat q_WH;
   };
-  std::vector<Held> held_;  ///< every finger's state, tick by tick of a pass
+  std::vector<Quat> turns_;  ///< of lines, as held_; else empty
+  std::vector<Held> held_;   ///< every finger's state, tick by tick of a pass
   bool fresh_ = true;
 };
 
