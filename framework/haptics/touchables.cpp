@@ -102,7 +102,8 @@ Vec3 Touchables::velocityAt(std::int32_t body, const Vec3& p_W) const noexcept {
 double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& p_WH, double reach, double moved,
                             double period, const FingerNeighbourhood* neighbourhood) const noexcept {
   near.begin();
-  const Query query{near, frame, frameOf(frame).inverse(), p_WH, reach, moved, period};
+  const Pose X_WA = frameOf(frame);
+  const Query query{near, frame, X_WA, p_WH, X_WA.inverseTimes(p_WH), reach, moved, period};
   double approach = 0;
   if (neighbourhood != nullptr && (p_WH - neighbourhood->center_W).norm() + reach <= neighbourhood->radius) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(neighbourhood->body_count); ++i) {
@@ -127,17 +128,18 @@ double Touchables::meet(const Touchable& touchable, const Query& query, const Ne
     if (speed > 0) approach = query.moved + query.period * speed;
   }
   const double reach = query.reach + kTicksAhead * approach;
-  if ((X_WB * touchable.center_B - query.p_WH).norm() > touchable.radius + reach) return 0;
   const bool own = touchable.body == query.frame;
+  const Vec3 away = own ? Vec3(touchable.center_B - query.p_AH) : Vec3(X_WB * touchable.center_B - query.p_WH);
+  if (away.norm() > touchable.radius + reach) return 0;
   if (touchable.tree == nullptr) {
     ConvexPiece piece = touchable.primitive;
-    if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = query.X_AW * (X_WB * touchable.X_BG);
+    if (!own) std::get_if<Primitive>(&piece.shape)->X_AG = query.X_WA.inverse() * (X_WB * touchable.X_BG);
     query.near.add(piece);
   } else {
-    const Pose X_AG = own ? touchable.X_BG : query.X_AW * (X_WB * touchable.X_BG);
+    const Pose X_AG = own ? touchable.X_BG : query.X_WA.inverse() * (X_WB * touchable.X_BG);
     const bool same = own && isIdentity(touchable.X_BG);
-    query.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near,
-                       query.X_AW * query.p_WH, reach);
+    query.near.addMesh(touchable.body, *touchable.tree, same ? nullptr : &X_AG, touchable.X_BG, near, query.p_AH,
+                       reach);
   }
   return approach;
 }

@@ -1,6 +1,7 @@
 #include "modules/fca_mesh/mesh_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "framework/geometry/closest_point.h"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kOn = 1e-9;       // share of a corner below which the point lies on the edge opposite
 constexpr int kMaxRing = 256;      // triangles around a vertex
+constexpr double kThin = 1e-4;     // squared sine of an angle below which a triangle needs the exact walk
 constexpr double kNearer = 1e-12;  // relative gain below which a neighbour is no nearer
 
 const TriMesh::Triangle& cornersOf(const TriMesh& mesh, std::int32_t t) noexcept {
@@ -21,27 +23,42 @@ const Vec3& corner(const TriMesh& mesh, std::int32_t t, std::size_t i) noexcept 
 std::int32_t across(const TriMesh& mesh, std::int32_t t, std::size_t edge) noexcept {
   return mesh.adjacency[static_cast<std::size_t>(t)][edge];
 }
+/// 0, 1 or 2 without a branch, which no processor could predict here.
+std::size_t indexOf(bool is_1, bool is_2) noexcept {
+  return std::min<std::size_t>(2, static_cast<std::size_t>(is_1) + 2 * static_cast<std::size_t>(is_2));
+}
+/// Edge of triangle t across which `other` lies, which must be its neighbour.
+std::size_t edgeTo(const TriMesh& mesh, std::int32_t t, std::int32_t other) noexcept {
+  return indexOf(across(mesh, t, 1) == other, across(mesh, t, 2) == other);
+}
 /// Twice the area, along the outward normal.
 Vec3 areaOf(const TriMesh& mesh, std::int32_t t) noexcept {
   return (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
 }
-Vec3 closest(const TriMesh& mesh, std::int32_t t, const Vec3& g) noexcept {
-  return closestOnTriangle(g, corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
+PreparedTriangle prepared(const TriMesh& mesh, std::int32_t t) noexcept {
+  return {corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)};
 }
 
-/// Where a point of a triangle lies: inside, on one edge, or at a corner.
-struct Feature {
-  int edge = -1, corner = -1;  ///< edge i leads from corner i to the next
+/// Shares of a point's foot on the plane of a triangle, times `area`: that of edge i is what the corner opposite has, and
+/// negative beyond the edge.
+struct EdgeShares {
+  EdgeShares(const PreparedTriangle& t, const Vec3& p) noexcept : area(t.ab_ab * t.ac_ac - t.ab_ac * t.ab_ac) {
+    const Vec3 ap = p - t.a;
+    const double d1 = t.ab.dot(ap), d2 = t.ac.dot(ap);
+    const double b = t.ac_ac * d1 - t.ab_ac * d2, c = t.ab_ab * d2 - t.ab_ac * d1;
+    of = {c, area - b - c, b};
+  }
+  std::array<double, 3> of;
+  double area;  ///< twice the triangle's, squared
 };
-Feature featureOf(const TriMesh& mesh, const SurfacePoint& at) noexcept {
-  const Vec3 area = areaOf(mesh, at.triangle);
+
+/// Feature of the triangle on which its point q lies.
+Feature featureOf(const PreparedTriangle& t, const Vec3& q) noexcept {
+  const EdgeShares shares(t, q);
   Feature feature;
-  int edges = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = corner(mesh, at.triangle, static_cast<std::size_t>(i)),
-               &b = corner(mesh, at.triangle, static_cast<std::size_t>((i + 1) % 3));
-    if ((b - a).cross(at.q - a).dot(area) > kOn * area.squaredNorm()) continue;
-    if (edges++ > 0) feature.corner = i == 2 && feature.edge == 0 ? 0 : i;
+    if (shares.of[static_cast<std::size_t>(i)] > kOn * shares.area) continue;
+    if (feature.edge >= 0) feature.corner = i == 2 && feature.edge == 0 ? 0 : i;
     feature.edge = i;
   }
   return feature;
@@ -68,29 +85,60 @@ void aroundCorner(const TriMesh& mesh, std::int32_t t, std::size_t i, const Use&
   }
 }
 
-/// Calls use(triangle) for every triangle that shares the feature with the given one.
+/// Calls use(triangle) for every triangle that shares the point's feature, with the point's own.
 template <class Use>
-void sharing(const TriMesh& mesh, std::int32_t t, const Feature& feature, const Use& use) noexcept {
-  if (feature.corner >= 0) return aroundCorner(mesh, t, static_cast<std::size_t>(feature.corner), use);
-  use(t);
-  if (feature.edge < 0) return;
-  const std::int32_t other = across(mesh, t, static_cast<std::size_t>(feature.edge));
+void sharing(const TriMesh& mesh, const SurfacePoint& at, const Use& use) noexcept {
+  if (at.feature.corner >= 0) return aroundCorner(mesh, at.triangle, static_cast<std::size_t>(at.feature.corner), use);
+  use(at.triangle);
+  if (at.feature.edge < 0) return;
+  const std::int32_t other = across(mesh, at.triangle, static_cast<std::size_t>(at.feature.edge));
   if (other >= 0) use(other);
+}
+
+/// From one plane to the next towards g, as long as g lies beyond the edge in the plane that is left and within it in
+/// the next: every such step brings the half-plane nearer. True where the foot of g lies inside the triangle; then it is
+/// the nearest point there, and no neighbour is to be asked. Else at.triangle is where the exact walk begins.
+bool glide(const TriMesh& mesh, const Vec3& g, SurfacePoint& at) noexcept {
+  std::int32_t now = at.triangle;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const PreparedTriangle t = prepared(mesh, now);
+    const EdgeShares shares(t, g);
+    if (!(shares.area > kThin * t.ab_ab * t.ac_ac)) return false;
+    if (step > 0) {
+      if (!(shares.of[edgeTo(mesh, now, at.triangle)] > 0)) return false;  // the edge itself holds it
+      at.triangle = now;
+    }
+    const double least = std::min({shares.of[0], shares.of[1], shares.of[2]});
+    if (least > kOn * shares.area) {
+      at.q = t.a + t.ab * (shares.of[2] / shares.area) + t.ac * (shares.of[0] / shares.area);
+      return true;
+    }
+    now = across(mesh, now, indexOf(shares.of[1] == least, shares.of[2] == least));
+    if (now < 0) return false;
+  }
+  return false;
 }
 
 }  // namespace
 
 SurfacePoint walk(const TriMesh& mesh, std::int32_t from, const Vec3& g) noexcept {
-  SurfacePoint at{from, closest(mesh, from, g)};
+  SurfacePoint at;
+  at.triangle = from;
+  if (glide(mesh, g, at)) return at;
+  const PreparedTriangle first = prepared(mesh, at.triangle);
+  at.q = closestOnTriangle(g, first);
+  at.feature = featureOf(first, at.q);
   double least = (at.q - g).squaredNorm();
   for (int step = 0; step < kMaxSteps; ++step) {
     SurfacePoint next = at;
-    sharing(mesh, at.triangle, featureOf(mesh, at), [&](std::int32_t triangle) {
-      const Vec3 q = closest(mesh, triangle, g);
+    sharing(mesh, at, [&](std::int32_t triangle) {
+      if (triangle == at.triangle) return;
+      const PreparedTriangle t = prepared(mesh, triangle);
+      const Vec3 q = closestOnTriangle(g, t);
       const double distance = (q - g).squaredNorm();
       if (!(distance < least * (1 - kNearer))) return;
       least = distance;
-      next = {triangle, q};
+      next = {triangle, q, featureOf(t, q)};
     });
     if (next.triangle == at.triangle) break;
     at = next;
@@ -99,15 +147,15 @@ SurfacePoint walk(const TriMesh& mesh, std::int32_t from, const Vec3& g) noexcep
 }
 
 Vec3 outwardAt(const TriMesh& mesh, const SurfacePoint& point) noexcept {
-  const Feature feature = featureOf(mesh, point);
-  if (feature.corner < 0) {
+  if (point.feature.corner < 0) {
+    if (point.feature.edge < 0) return areaOf(mesh, point.triangle);
     Vec3 sum = Vec3::Zero();
-    sharing(mesh, point.triangle, feature, [&](std::int32_t t) { sum += areaOf(mesh, t).normalized(); });
+    sharing(mesh, point, [&](std::int32_t t) { sum += areaOf(mesh, t).normalized(); });
     return sum;
   }
-  const std::int32_t vertex = cornersOf(mesh, point.triangle)[static_cast<std::size_t>(feature.corner)];
+  const std::int32_t vertex = cornersOf(mesh, point.triangle)[static_cast<std::size_t>(point.feature.corner)];
   Vec3 sum = Vec3::Zero();
-  sharing(mesh, point.triangle, feature, [&](std::int32_t t) {
+  sharing(mesh, point, [&](std::int32_t t) {
     const auto i = static_cast<std::size_t>(std::ranges::find(cornersOf(mesh, t), vertex) - cornersOf(mesh, t).begin());
     const Vec3 a = (corner(mesh, t, (i + 1) % 3) - corner(mesh, t, i)).normalized(),
                b = (corner(mesh, t, (i + 2) % 3) - corner(mesh, t, i)).normalized();

@@ -5,16 +5,24 @@
 
 namespace presa::fca {
 
+/// Where a point of a triangle lies: inside (neither), on one edge, or at a corner.
+struct Feature {
+  int edge = -1;    ///< edge i leads from corner i to the next
+  int corner = -1;  ///< set: the point lies there, whatever `edge` is
+};
+
 /// A point of a mesh's surface, in mesh coordinates.
 struct SurfacePoint {
   std::int32_t triangle = -1;
   Vec3 q = Vec3::Zero();
+  Feature feature;  ///< of the triangle
 };
 
-/// Walks over the mesh from a triangle towards g: to the point of the triangle nearest to g, then across the edge or
-/// around the vertex where that lies to whichever neighbour is nearer, until none is. The way never leaves the surface, and
-/// |q - g| falls all along it; the end is a local minimum. At most kMaxSteps triangles; needs TriMesh::adjacency.
-/// Thread: any; nonblocking.
+/// Walks over the mesh from a triangle towards g: across edges while the foot of g on the triangle's plane lies beyond,
+/// then from the point of the triangle nearest to g, across the edge or around the vertex where that lies, to whichever
+/// neighbour is nearer, until none is. The way never leaves the surface, and every step of it brings that nearer to g: the
+/// half-plane behind the edge crossed, and then the point itself. The end is a local minimum. At most kMaxSteps triangles
+/// each; needs TriMesh::adjacency. Thread: any; nonblocking.
 SurfacePoint walk(const TriMesh& mesh, std::int32_t from, const Vec3& g) noexcept;
 inline constexpr int kMaxSteps = 256;
 

@@ -49,11 +49,46 @@ TEST(MeshWalk, EndsAtTheNearestPointOfABall) {
     const Vec3 out = Vec3(random.normal(), random.normal(), random.normal()).normalized();
     const Vec3 g = random.uniform(0.045, 0.055) * out;
     std::int32_t from = static_cast<std::int32_t>(random.uniform(0, static_cast<double>(ball.triangles.size())));
-    fca::SurfacePoint at{from, {}};
+    fca::SurfacePoint at;
+    at.triangle = from;
     for (int leg = 0; leg < 4; ++leg) at = fca::walk(ball, at.triangle, g);
     const double nearest = nearestByBruteForce(ball, g);
     EXPECT_LE((at.q - g).norm(), nearest + 1e-5) << i;
     EXPECT_EQ((g - at.q).dot(fca::outwardAt(ball, at)) > 0, g.norm() > at.q.norm()) << i;
+  }
+}
+
+// Hills, hollows and, drawn out along x, needles too thin for the walk from plane to plane. The end is the point of its
+// triangle nearest to g and, where it lies on an edge or a corner, no triangle that shares it has a nearer one. Tolerance:
+// rounding of a mesh of that length.
+TEST(MeshWalk, EndsWhereNoNeighbourIsNearer) {
+  for (const double drawn_out : {1.0, 300.0}) {
+    TriMesh mesh = makeSphere(0.05, 3);
+    for (Vec3& v : mesh.vertices) v *= 1 + 0.1 * std::sin(200 * v.x()) * std::sin(200 * v.y()) * std::sin(200 * v.z());
+    for (Vec3& v : mesh.vertices) v.x() *= drawn_out;
+    mesh = withAdjacency(mesh);
+    const auto nearestOn = [&](std::size_t t, const Vec3& g) {
+      const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][i])]; };
+      return closestOnTriangle(g, at(0), at(1), at(2));
+    };
+    RandomStream random(1, "hills", 0);
+    int ends_inside = 0;
+    for (int i = 0; i < 500; ++i) {
+      Vec3 g = random.uniform(0.03, 0.07) * Vec3(random.normal(), random.normal(), random.normal()).normalized();
+      g.x() *= drawn_out;
+      const auto from = static_cast<std::int32_t>(random.uniform(0, static_cast<double>(mesh.triangles.size())));
+      const fca::SurfacePoint end = fca::walk(mesh, from, g);
+      const double distance = (end.q - g).norm(), rounding = 5e-12 * drawn_out * 0.05;
+      EXPECT_NEAR((nearestOn(static_cast<std::size_t>(end.triangle), g) - end.q).norm(), 0, rounding) << i;
+      const bool inside = end.feature.edge < 0 && end.feature.corner < 0;
+      ends_inside += inside;
+      for (std::size_t t = 0; t < mesh.triangles.size() && !inside; ++t) {
+        if ((nearestOn(t, end.q) - end.q).norm() > rounding) continue;
+        EXPECT_GE((nearestOn(t, g) - g).norm(), distance - rounding) << i << " drawn out " << drawn_out;
+      }
+    }
+    EXPECT_GT(ends_inside, 50);
+    EXPECT_LT(ends_inside, 450);
   }
 }
 
