@@ -23,7 +23,6 @@ void TouchedSolids::place(const ToolInput& input) noexcept {
 }
 
 bool TouchedSolids::list(const Pressing& tool, const Vec6& of_handle, BoundedList<ToolForce>& forces) noexcept {
-  constexpr double kMaxSqueeze = 4;
   std::fill(pressure_.begin(), pressure_.end(), 0.0);
   double sum = 0;
   for (const PressedPoint& one : tool.points) {
@@ -32,7 +31,7 @@ bool TouchedSolids::list(const Pressing& tool, const Vec6& of_handle, BoundedLis
   }
   if (!(sum > 0)) return false;
   const ToolCoupling& handle = tool.coupling;
-  const double most = kMaxSqueeze * (handle.max_force + handle.max_torque / tool.radius);
+  const double most = maxSqueeze(handle, tool.radius);
   const double stiffness = handle.stiffness * tool.stiffness / (handle.stiffness + tool.stiffness);
   for (const PressedPoint& one : tool.points) {
     if (!(one.force > 0)) continue;

@@ -20,6 +20,12 @@ class TouchedSolids {
   /// By solid, since place(). The reference stays valid.
   const std::vector<FrictionCoefficients>& friction() const noexcept { return friction_; }
 
+  /// Force with which points within `radius` of the tool's origin may press one body [N]: four times what the handle can
+  /// press with all its levers.
+  static double maxSqueeze(const ToolCoupling& handle, double radius) noexcept {
+    return 4 * (handle.max_force + handle.max_torque / radius);
+  }
+
   /// The tool whose points press.
   struct Pressing {
     const ToolCoupling& coupling;             ///< of its handle
@@ -30,8 +36,8 @@ class TouchedSolids {
     double lever = 0;                         ///< places nearer to each other hardly give a torque [m]
   };
   /// Adds the points that press to `forces`, their places from the tool's origin, and balances them with `of_handle`, the
-  /// wrench of the handle on the tool about its origin. The max squeeze of a body is four times what the handle can press
-  /// with all its levers. False: no point presses.
+  /// wrench of the handle on the tool about its origin. No body is squeezed by more than maxSqueeze(). False: no point
+  /// presses.
   bool list(const Pressing& tool, const Vec6& of_handle, BoundedList<ToolForce>& forces) noexcept;
 
  private:

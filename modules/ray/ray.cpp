@@ -7,20 +7,19 @@
 #include <vector>
 
 #include "framework/haptics/tool_renderer.h"
+#include "framework/haptics/touched_solids.h"
 #include "modules/ray/ray_proxy.h"
 
 namespace presa {
 namespace {
 
 constexpr double kLever = 1e-3;  // distance below which two places share a torque only weakly [m]
-constexpr double kSqueeze = 4;   // as TouchedSolids::list()
 
 /// Throws std::invalid_argument: a hand could press a surface so deep into the ray that it comes through.
 void requireStiff(const Ray& ray, const DeviceRole& role, double stiffness) {
   const ToolCoupling& handle = role.tool->coupling;
-  const double radius = std::max(ray.axis_T.a.norm(), ray.axis_T.b.norm()) + ray.radius,
-               needed =
-                   kSqueeze * (handle.max_force + handle.max_torque / radius) / (RayProxy::kMaxOverlap * ray.radius);
+  const double radius = std::max(ray.axis_T.a.norm(), ray.axis_T.b.norm()) + ray.radius;
+  const double needed = TouchedSolids::maxSqueeze(handle, radius) / (RayProxy::kMaxOverlap * ray.radius);
   if (stiffness >= needed) return;
   char text[160];
   std::snprintf(text, sizeof text, "a stiffness of %.3g N/m lets surfaces into a ray of this radius: at least %.3g N/m",
