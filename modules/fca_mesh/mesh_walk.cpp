@@ -108,12 +108,12 @@ bool glide(const TriMesh& mesh, const Vec3& g, SurfacePoint& at) noexcept {
       if (!(shares.of[edgeTo(mesh, now, at.triangle)] > 0)) return false;  // the edge itself holds it
       at.triangle = now;
     }
-    const double least = std::min({shares.of[0], shares.of[1], shares.of[2]});
-    if (least > kOn * shares.area) {
+    const double smallest = std::min({shares.of[0], shares.of[1], shares.of[2]});
+    if (smallest > kOn * shares.area) {
       at.q = t.a + t.ab * (shares.of[2] / shares.area) + t.ac * (shares.of[0] / shares.area);
       return true;
     }
-    now = across(mesh, now, indexOf(shares.of[1] == least, shares.of[2] == least));
+    now = across(mesh, now, indexOf(shares.of[1] == smallest, shares.of[2] == smallest));
     if (now < 0) return false;
   }
   return false;

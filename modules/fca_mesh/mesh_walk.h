@@ -18,11 +18,11 @@ struct SurfacePoint {
   Feature feature;  ///< of the triangle
 };
 
-/// Walks over the mesh from a triangle towards g: across edges while the foot of g on the triangle's plane lies beyond,
+/// Walks over the mesh from a triangle towards g: across edges while the foot of g on the triangle's plane lies beyond;
 /// then from the point of the triangle nearest to g, across the edge or around the vertex where that lies, to whichever
-/// neighbour is nearer, until none is. The way never leaves the surface, and every step of it brings that nearer to g: the
-/// half-plane behind the edge crossed, and then the point itself. The end is a local minimum. At most kMaxSteps triangles
-/// each; needs TriMesh::adjacency. Thread: any; nonblocking.
+/// neighbour is nearer, until none is. The way never leaves the surface. A crossed edge leads to a half-plane nearer to g,
+/// each later step to a nearer point; the end is a local minimum. At most kMaxSteps triangles each; needs
+/// TriMesh::adjacency. Thread: any; nonblocking.
 SurfacePoint walk(const TriMesh& mesh, std::int32_t from, const Vec3& g) noexcept;
 inline constexpr int kMaxSteps = 256;
 
