@@ -92,8 +92,8 @@ TEST(MeshWalk, EndsWhereNoNeighbourIsNearer) {
   }
 }
 
-// Every step of the way leads to something nearer, so nothing that lies farther is passed: a plate of 1 mm holds from above, however
-// deep the device is.
+// Every step of the way leads to something nearer, so nothing that lies farther is passed: a plate of 1 mm holds from
+// above, however deep the device is.
 TEST(FcaMesh, StaysOnItsSideOfAThinPlate) {
   test::OneFinger finger(meshWorld(withAdjacency(makeBox({0.1, 0.1, 0.001}))));
   FingerContact contact;
