@@ -53,28 +53,34 @@ void Surroundings::addMesh(std::int32_t body, const MeshTree& tree, const Pose* 
   mesh->last_tick = tick_;
   mesh->tree = &tree;
   mesh->own = X_AG == nullptr;
-  mesh->X_AG = mesh->own ? Pose{} : *X_AG;
-  const Vec3 p_G = mesh->toG(p_A);
-  for (std::size_t point = 0; point < mesh->fronts.size(); ++point) {
-    MeshFront& front = mesh->fronts[point];
-    const bool covers = (p_G - mesh->center_G[point]).norm() + reach <= mesh->radius[point];
-    if (!front.seeded() || front.worn() || front.full() || !covers) seed(*mesh, point, cut, X_BG, p_G, reach);
-  }
+  if (!mesh->own) mesh->X_AG = *X_AG;
+  mesh->X_BG = &X_BG;
+  mesh->cut = cut;
+  mesh->p_G = mesh->toG(p_A);
+  mesh->reach = reach;
+  mesh->covers.fill(false);
   near_[near_count_++] = mesh;
 }
 
+void Surroundings::cover(Mesh& mesh, std::size_t point) noexcept {
+  MeshFront& front = mesh.fronts[point];
+  const bool covers = (mesh.p_G - mesh.center_G[point]).norm() + mesh.reach <= mesh.radius[point];
+  if (!front.seeded() || front.worn() || front.full() || !covers) seed(mesh, point);
+  mesh.covers[point] = true;
+}
+
 // Seeds from the collision thread's cut when it covers the reach, else from the root: slower once, but equally correct.
-void Surroundings::seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
-                        double reach) noexcept {
+void Surroundings::seed(Mesh& mesh, std::size_t point) noexcept {
   static constexpr std::array<std::int32_t, 1> kWhole{MeshTree::kRoot};
-  const Vec3 center_G = cut != nullptr ? X_BG.inverseTimes(cut->center_B) : Vec3::Zero();
-  if (cut != nullptr && cut->cut_count > 0 && (p_G - center_G).norm() + reach <= cut->radius) {
-    mesh.fronts[point].seed(*mesh.tree, {cut->cut.data(), static_cast<std::size_t>(cut->cut_count)}, p_G);
+  const NearBody* const cut = mesh.cut;
+  const Vec3 center_G = cut != nullptr ? mesh.X_BG->inverseTimes(cut->center_B) : Vec3::Zero();
+  if (cut != nullptr && cut->cut_count > 0 && (mesh.p_G - center_G).norm() + mesh.reach <= cut->radius) {
+    mesh.fronts[point].seed(*mesh.tree, {cut->cut.data(), static_cast<std::size_t>(cut->cut_count)}, mesh.p_G);
     mesh.center_G[point] = center_G;
     mesh.radius[point] = cut->radius;
   } else {
-    mesh.fronts[point].seed(*mesh.tree, kWhole, p_G);
-    mesh.center_G[point] = p_G;
+    mesh.fronts[point].seed(*mesh.tree, kWhole, mesh.p_G);
+    mesh.center_G[point] = mesh.p_G;
     mesh.radius[point] = std::numeric_limits<double>::infinity();
   }
 }
@@ -92,7 +98,7 @@ double Surroundings::firstTouch(const Vec3& x, const Vec3& move, double reach, d
   }
   for (std::size_t m = 0; m < near_count_; ++m) {
     Mesh& mesh = *near_[m];
-    reach = mesh.fronts[point_].firstTouch(mesh.toG(x), mesh.turnToG(move), reach, r, tolerance);
+    reach = front(mesh).firstTouch(mesh.toG(x), mesh.turnToG(move), reach, r, tolerance);
   }
   return reach;
 }
@@ -155,21 +161,24 @@ bool Surroundings::follow(Mesh& mesh, const Vec3& x, double r) noexcept {
   mesh.last_x_G = way_[count - 1];
   mesh.clearance -= length;
   if (mesh.clearance > 0 || length == 0) return false;  // the clearance rules out any surface on the path
-  MeshFront& front = mesh.fronts[point_];
-  const bool crossed = front.crosses({way_.data(), count}, focused);
+  MeshFront& around = front(mesh);
+  const bool crossed = around.crosses({way_.data(), count}, focused);
   constexpr double kWorthIt = 3;  // number of ticks that computing the clearance should save
-  if (!focused || r > kWorthIt * length) mesh.clearance = front.clearance(mesh.last_x_G);
+  if (!focused || r > kWorthIt * length) mesh.clearance = around.clearance(mesh.last_x_G);
   return crossed;
 }
 
 bool Surroundings::full() const noexcept {
   return std::any_of(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_),
-                     [&](const Mesh* mesh) { return mesh->fronts[point_].full(); });
+                     [&](const Mesh* mesh) { return mesh->covers[point_] && mesh->fronts[point_].full(); });
 }
 
 bool Surroundings::crowded() const noexcept {
   bool full = false;
-  for (std::size_t m = 0; m < near_count_; ++m) full = full || near_[m]->fronts[0].full() || near_[m]->fronts[1].full();
+  for (std::size_t m = 0; m < near_count_; ++m) {
+    const Mesh& mesh = *near_[m];
+    for (std::size_t point = 0; point < 2; ++point) full = full || (mesh.covers[point] && mesh.fronts[point].full());
+  }
   return no_room_ || full;
 }
 

@@ -45,7 +45,8 @@ class Surroundings {
   void begin() noexcept;
   void add(const ConvexPiece& primitive) noexcept;  ///< when full: left out, see crowded()
   /// Adds a mesh body. X_AG null: mesh coordinates are those of A. All queries of this tick must stay within `reach` of
-  /// p_A. `cut` may be null.
+  /// p_A. `cut` may be null; it and X_BG must stay as they are until the next begin(), because a front is seeded only
+  /// when a query needs it.
   void addMesh(std::int32_t body, const MeshTree& tree, const Pose* X_AG, const Pose& X_BG, const NearBody* cut,
                const Vec3& p_A, double reach) noexcept;
   /// Selects the point whose fronts the calls below use.
@@ -73,7 +74,7 @@ class Surroundings {
   void focus(const Vec3& x, double radius) noexcept {
     focus_center_ = x;
     focus_radius_ = radius;
-    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].focus(near_[m]->toG(x), radius, step_);
+    for (std::size_t m = 0; m < near_count_; ++m) front(*near_[m]).focus(near_[m]->toG(x), radius, step_);
   }
   /// Distance that the HIP moved in this tick relative to the touched body [m]; used to plan the focus.
   double step() const noexcept { return step_; }
@@ -97,8 +98,8 @@ class Surroundings {
 
   /// Rotation from the mesh coordinates of a piece to A.
   Mat3 turnOf(const PieceRef& ref) const noexcept {
-    return ref.source < 0 ? Mat3(Mat3::Identity())
-                          : near_[static_cast<std::size_t>(ref.source)]->X_AG.q.toRotationMatrix();
+    const Mesh* const mesh = ref.source < 0 ? nullptr : near_[static_cast<std::size_t>(ref.source)];
+    return mesh == nullptr || mesh->own ? Mat3(Mat3::Identity()) : mesh->X_AG.q.toRotationMatrix();
   }
 
   /// Records that the current point passes through x in this tick.
@@ -115,7 +116,7 @@ class Surroundings {
   bool full() const noexcept;
   /// Reseeds full fronts at x, dropping items left behind on the path.
   void renew(const Vec3& x) noexcept {
-    for (std::size_t m = 0; m < near_count_; ++m) near_[m]->fronts[point_].renew(near_[m]->toG(x));
+    for (std::size_t m = 0; m < near_count_; ++m) front(*near_[m]).renew(near_[m]->toG(x));
   }
   /// True when something within reach found no room in this tick.
   bool crowded() const noexcept;
@@ -128,7 +129,12 @@ class Surroundings {
     std::uint64_t last_tick = 0;
     // values of this tick
     bool own = true;
-    Pose X_AG;
+    Pose X_AG;  // of another than `own`
+    const Pose* X_BG = nullptr;
+    const NearBody* cut = nullptr;
+    Vec3 p_G = Vec3::Zero();
+    double reach = 0;
+    std::array<bool, 2> covers{};  // whether each front covers `reach` of p_G: from its first query of the tick on
     // ball covered by the seed of each front, in mesh coordinates G; infinite radius: the whole mesh
     std::array<Vec3, 2> center_G{Vec3::Zero(), Vec3::Zero()};
     std::array<double, 2> radius{};
@@ -147,8 +153,13 @@ class Surroundings {
   bool follow(Mesh& mesh, const Vec3& x, double r) noexcept;
   /// Whether every piece that could be crossed at x is in focus.
   bool inFocus(const Vec3& x) const noexcept { return (x - focus_center_).norm() <= 0.999 * focus_radius_; }
-  static void seed(Mesh& mesh, std::size_t point, const NearBody* cut, const Pose& X_BG, const Vec3& p_G,
-                   double reach) noexcept;
+  /// The mesh's front of the point in use, for queries of this tick.
+  MeshFront& front(Mesh& mesh) noexcept {
+    if (!mesh.covers[point_]) cover(mesh, point_);
+    return mesh.fronts[point_];
+  }
+  static void cover(Mesh& mesh, std::size_t point) noexcept;
+  static void seed(Mesh& mesh, std::size_t point) noexcept;
 
   std::array<ConvexPiece, kMaxPrimitives> primitives_;
   std::array<TangentBound, kMaxPrimitives> tangents_;
@@ -173,7 +184,7 @@ template <class Visit>
 void Surroundings::forEachWithin(int source, const Vec3& x, const double& limit, const Visit& visit) noexcept {
   if (source >= 0) {
     Mesh& mesh = *near_[static_cast<std::size_t>(source)];
-    mesh.fronts[point_].forEachWithin(mesh.toG(x), limit, [&](int item, const Nearest& at) {
+    front(mesh).forEachWithin(mesh.toG(x), limit, [&](int item, const Nearest& at) {
       visit(NearPiece{{static_cast<std::int16_t>(source), item}, mesh.body, mesh.toA(at)});
     });
     return;

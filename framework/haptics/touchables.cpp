@@ -103,7 +103,8 @@ double Touchables::surround(Surroundings& near, std::int32_t frame, const Vec3& 
                             double period, const FingerNeighbourhood* neighbourhood) const noexcept {
   near.begin();
   const Pose X_WA = frameOf(frame);
-  const Query query{near, frame, X_WA, p_WH, X_WA.inverseTimes(p_WH), reach, moved, period};
+  const Vec3 p_AH = X_WA.inverseTimes(p_WH);
+  const Query query{near, frame, X_WA, p_WH, p_AH, reach, moved, period};
   double approach = 0;
   if (neighbourhood != nullptr && (p_WH - neighbourhood->center_W).norm() + reach <= neighbourhood->radius) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(neighbourhood->body_count); ++i) {

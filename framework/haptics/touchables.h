@@ -59,8 +59,8 @@ class Touchables {
   struct Query {
     Surroundings& near;
     std::int32_t frame;
-    Pose X_WA;
-    Vec3 p_WH, p_AH;
+    const Pose& X_WA;
+    const Vec3 &p_WH, &p_AH;
     double reach, moved, period;
   };
   /// Adds the body if it is within reach; returns the distance by which it may have approached in a tick [m].

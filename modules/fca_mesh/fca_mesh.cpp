@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace {
 
 /// A place on a mesh near the tool.
 struct Place {
-  const TriMesh* mesh = nullptr;
+  const fca::WalkMesh* mesh = nullptr;
   std::int32_t body = kNoBody, triangle = -1;
   Pose X_AG;
 };
@@ -22,24 +23,8 @@ struct Tool {
   bool touching = false;
   const Surroundings* near = nullptr;  ///< the tool's own
   std::int32_t held = -1;              ///< triangle of place.mesh
+  Vec3 held_at = Vec3::Zero();         ///< on that triangle, where move() ended
 };
-
-/// The triangle nearest to x within `limit`.
-Place nearestTo(const Vec3& x, double limit, Surroundings& near) noexcept {
-  Place place;
-  near.focus(x, limit);
-  near.forEachWithin(x, limit, [&](const NearPiece& piece) {
-    const Surroundings::Triangle found = near.triangleOf(piece.ref, x);
-    if (piece.at.distance > limit || found.facet == nullptr) return;
-    limit = piece.at.distance;
-    place.mesh = &found.tree->mesh();
-    place.body = piece.body;
-    place.triangle = found.facet->id;
-    place.X_AG.q = Quat(near.turnOf(piece.ref));
-    place.X_AG.p = x - place.X_AG.q * found.x_G;
-  });
-  return place;
-}
 
 ProxyMove freeAt(const Vec3& g) noexcept {
   ProxyMove moved{};
@@ -61,13 +46,14 @@ ProxyMove walkTo(const Vec3& g, Place& place) noexcept {
 
 class FcaMesh final : public Renderer, public ProxyMover {
  public:
-  explicit FcaMesh(const World& world) : tools_(world.scene.devices.size()) {
+  explicit FcaMesh(const World& world) : meshes_(world.scene.bodies.size()), tools_(world.scene.devices.size()) {
     for (std::size_t b = 0; b < world.scene.bodies.size(); ++b) {
       const Body& body = world.scene.bodies[b];
       if (!body.haptic) continue;
       if (!world.meshes[b].haptic) throw std::invalid_argument("the haptic geometry of '" + body.name + "' is no mesh");
       if (world.meshes[b].haptic->adjacency.empty())
         throw std::invalid_argument("the haptic mesh of '" + body.name + "' has no adjacency");
+      meshes_[b] = meshOf(world, b);
     }
   }
 
@@ -89,7 +75,10 @@ class FcaMesh final : public Renderer, public ProxyMover {
     Place place = placeOf(x, r, near);
     if (place.triangle < 0) return freeAt(g);
     const ProxyMove moved = walkTo(g, place);
-    if (Tool* tool = toolOf(near)) tool->held = place.triangle;
+    if (Tool* tool = toolOf(near)) {
+      tool->held = place.triangle;
+      tool->held_at = moved.x;
+    }
     return moved;
   }
   bool isSupported(const Vec3& x, double r, Surroundings& near) const noexcept override {
@@ -103,6 +92,31 @@ class FcaMesh final : public Renderer, public ProxyMover {
  private:
   static constexpr double kOn = 1e-6;  // relative to r: a point nearer than this lies on the surface
 
+  /// The mesh of body b; bodies of one mesh share it.
+  std::shared_ptr<const fca::WalkMesh> meshOf(const World& world, std::size_t b) const {
+    for (std::size_t other = 0; other < b; ++other) {
+      if (meshes_[other] && world.meshes[other].haptic == world.meshes[b].haptic) return meshes_[other];
+    }
+    return std::make_shared<const fca::WalkMesh>(*world.meshes[b].haptic);
+  }
+
+  /// The triangle nearest to x within `limit`.
+  Place nearestTo(const Vec3& x, double limit, Surroundings& near) const noexcept {
+    Place place;
+    near.focus(x, limit);
+    near.forEachWithin(x, limit, [&](const NearPiece& piece) {
+      const Surroundings::Triangle found = near.triangleOf(piece.ref, x);
+      if (piece.at.distance > limit || found.facet == nullptr) return;
+      limit = piece.at.distance;
+      place.mesh = meshes_[static_cast<std::size_t>(piece.body)].get();
+      place.body = piece.body;
+      place.triangle = found.facet->id;
+      place.X_AG.q = Quat(near.turnOf(piece.ref));
+      place.X_AG.p = x - place.X_AG.q * found.x_G;
+    });
+    return place;
+  }
+
   Tool* toolOf(const Surroundings& near) const noexcept {
     const auto tool = std::ranges::find(tools_, &near, &Tool::near);
     return tool == tools_.end() ? nullptr : &*tool;
@@ -112,12 +126,16 @@ class FcaMesh final : public Renderer, public ProxyMover {
   /// the tool touches; only after both the surroundings are searched.
   Place placeOf(const Vec3& x, double r, Surroundings& near) const noexcept {
     if (const Tool* tool = toolOf(near); tool != nullptr && tool->touching) {
+      Place place = tool->place;
+      if (tool->held >= 0 && x == tool->held_at) {
+        place.triangle = tool->held;
+        return place;
+      }
       for (const std::int32_t triangle : {tool->held, tool->place.triangle}) {
         if (triangle < 0) continue;
         const Vec3 x_G = tool->place.X_AG.inverseTimes(x);
         const fca::SurfacePoint at = fca::walk(*tool->place.mesh, triangle, x_G);
         if (!((at.q - x_G).norm() <= kOn * r)) continue;
-        Place place = tool->place;
         place.triangle = at.triangle;
         return place;
       }
@@ -127,7 +145,7 @@ class FcaMesh final : public Renderer, public ProxyMover {
 
   /// In free space: on the mesh that the tool faced in the last tick it starts from the triangle there, to enter by the
   /// side where it was; else from the nearest one.
-  static void face(const RenderInput& in, Tool& tool) noexcept {
+  void face(const RenderInput& in, Tool& tool) const noexcept {
     const Place nearest = nearestTo(in.g, std::numeric_limits<double>::infinity(), in.near);
     const std::int32_t faced =
         tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
@@ -138,6 +156,7 @@ class FcaMesh final : public Renderer, public ProxyMover {
     tool.place = nearest;
   }
 
+  std::vector<std::shared_ptr<const fca::WalkMesh>> meshes_;  // by body; null: not touchable
   mutable std::vector<Tool> tools_;  // move() remembers where it ended: the next one begins there
 };
 

@@ -109,6 +109,10 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
     finger.tip.x = finger.tip.god_object = finger.p_WH = input.p_WH;
   }
 
+  const Pose X_WA = touchables_.frameOf(finger.frame);
+  const Vec3 g = X_WA.inverseTimes(input.p_WH);
+  const double approach = gather(f, g, now.period);
+  own_contacts_.clear();
   FingerTick tick{.index = f,
                   .input = input,
                   .finger = finger,
@@ -118,18 +122,12 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
                   .time = now.time,
                   .period = now.period,
                   .r = finger.radius,
+                  .approach = approach,
+                  .X_WA = X_WA,
+                  .g = g,
+                  .contact = renderer_->touch({f, g, finger.radius, finger.tip, X_WA, *finger.near, own_contacts_}),
                   .own_contacts = own_contacts_};
-  tick.X_WA = touchables_.frameOf(finger.frame);
-  tick.g = tick.X_WA.inverseTimes(input.p_WH);
-  const double way = std::max((finger.tip.x - tick.g).norm(), (finger.tip.god_object - tick.g).norm());
-  const double moved = (input.p_WH - finger.p_WH).norm();
-  finger.p_WH = input.p_WH;
-  const bool patched = neighbourhoods_.hasValue() && f < static_cast<std::size_t>(neighbourhoods_->count);
-  // 10 %: room for being pushed out of a moving body
-  tick.approach = touchables_.surround(*finger.near, finger.frame, input.p_WH, way + 1.1 * finger.radius, moved,
-                                       now.period, patched ? &neighbourhoods_->fingers[f] : nullptr);
-  finger.near->setStep(moved + tick.approach);
-  touch(tick);
+  checkContract(tick);
   for (const auto& stage : finger_stages_) stage->apply(tick);
   if (tick.next_frame != finger.frame) changeFrame(tick);
   out.f_H_W = out.normal_force * out.nhat_W + out.tangential_force_W;
@@ -140,10 +138,23 @@ void HapticsProxy::stepFinger(std::size_t f, const Tick& now) noexcept {
                          added->reactions.value);
 }
 
-void HapticsProxy::touch(FingerTick& tick) noexcept {
-  own_contacts_.clear();
-  tick.contact =
-      renderer_->touch({tick.index, tick.g, tick.r, tick.finger.tip, tick.X_WA, *tick.finger.near, own_contacts_});
+// What the fingertip can reach in this tick. Returns how far a surface may have approached it.
+double HapticsProxy::gather(std::size_t f, const Vec3& g, double period) noexcept {
+  RenderedFinger& finger = fingers_[f];
+  const Vec3& p_WH = device_->fingers[f].p_WH;
+  const double way = std::max((finger.tip.x - g).norm(), (finger.tip.god_object - g).norm());
+  const double moved = (p_WH - finger.p_WH).norm();
+  finger.p_WH = p_WH;
+  const bool patched = neighbourhoods_.hasValue() && f < static_cast<std::size_t>(neighbourhoods_->count);
+  // 10 %: room for being pushed out of a moving body
+  const double approach = touchables_.surround(*finger.near, finger.frame, p_WH, way + 1.1 * finger.radius, moved,
+                                               period, patched ? &neighbourhoods_->fingers[f] : nullptr);
+  finger.near->setStep(moved + approach);
+  return approach;
+}
+
+// A contact that a renderer must not give ends the run.
+void HapticsProxy::checkContract(FingerTick& tick) noexcept {
   if (own_contacts_.lost() > 0) ++contact_.value.coverage_lost;
   if (keepsContract(tick.contact, own_contacts_, touchables_)) [[likely]]
     return;

@@ -57,7 +57,8 @@ class HapticsProxy final : public Module, public PluginHost {
   SurfacesInForce surfaces(const HapticEffects& effects);
   std::unique_ptr<FrictionStage> frictionOf(const HapticEffects& effects, const SurfacesInForce& surfaces);
   void stepFinger(std::size_t finger, const Tick& tick) noexcept;
-  void touch(FingerTick& tick) noexcept;
+  double gather(std::size_t finger, const Vec3& g, double period) noexcept;
+  void checkContract(FingerTick& tick) noexcept;
   void changeFrame(FingerTick& tick) noexcept;
 
   std::shared_ptr<const World> world_;

@@ -44,6 +44,7 @@ double nearestByBruteForce(const TriMesh& mesh, const Vec3& g) {
 // a point whose foot lies in them: they differ by less than the ball's sagitta over a triangle, 2 mm over 50 mm.
 TEST(MeshWalk, EndsAtTheNearestPointOfABall) {
   const TriMesh ball = withAdjacency(makeSphere(0.05, 4));
+  const fca::WalkMesh walked(ball);
   RandomStream random(1, "walk", 0);
   for (int i = 0; i < 500; ++i) {
     const Vec3 out = Vec3(random.normal(), random.normal(), random.normal()).normalized();
@@ -51,10 +52,10 @@ TEST(MeshWalk, EndsAtTheNearestPointOfABall) {
     std::int32_t from = static_cast<std::int32_t>(random.uniform(0, static_cast<double>(ball.triangles.size())));
     fca::SurfacePoint at;
     at.triangle = from;
-    for (int leg = 0; leg < 4; ++leg) at = fca::walk(ball, at.triangle, g);
+    for (int leg = 0; leg < 4; ++leg) at = fca::walk(walked, at.triangle, g);
     const double nearest = nearestByBruteForce(ball, g);
     EXPECT_LE((at.q - g).norm(), nearest + 1e-5) << i;
-    EXPECT_EQ((g - at.q).dot(fca::outwardAt(ball, at)) > 0, g.norm() > at.q.norm()) << i;
+    EXPECT_EQ((g - at.q).dot(fca::outwardAt(walked, at)) > 0, g.norm() > at.q.norm()) << i;
   }
 }
 
@@ -67,6 +68,7 @@ TEST(MeshWalk, EndsWhereNoNeighbourIsNearer) {
     for (Vec3& v : mesh.vertices) v *= 1 + 0.1 * std::sin(200 * v.x()) * std::sin(200 * v.y()) * std::sin(200 * v.z());
     for (Vec3& v : mesh.vertices) v.x() *= drawn_out;
     mesh = withAdjacency(mesh);
+    const fca::WalkMesh walked(mesh);
     const auto nearestOn = [&](std::size_t t, const Vec3& g) {
       const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][i])]; };
       return closestOnTriangle(g, at(0), at(1), at(2));
@@ -77,7 +79,7 @@ TEST(MeshWalk, EndsWhereNoNeighbourIsNearer) {
       Vec3 g = random.uniform(0.03, 0.07) * Vec3(random.normal(), random.normal(), random.normal()).normalized();
       g.x() *= drawn_out;
       const auto from = static_cast<std::int32_t>(random.uniform(0, static_cast<double>(mesh.triangles.size())));
-      const fca::SurfacePoint end = fca::walk(mesh, from, g);
+      const fca::SurfacePoint end = fca::walk(walked, from, g);
       const double distance = (end.q - g).norm(), rounding = 5e-12 * drawn_out * 0.05;
       EXPECT_NEAR((nearestOn(static_cast<std::size_t>(end.triangle), g) - end.q).norm(), 0, rounding) << i;
       const bool inside = end.feature.edge < 0 && end.feature.corner < 0;

@@ -12,6 +12,8 @@ namespace {
 
 using test::kR;
 
+const Pose kInPlace{};  // the mesh in its body
+
 // A bumpy surface of triangles.
 std::shared_ptr<const TriMesh> bumpyField(double edge = 1e-3, double reach = 0.02) {
   auto mesh = std::make_shared<TriMesh>();
@@ -71,7 +73,7 @@ TEST(Surroundings, WhatWasSeenBeforeChangesNothing) {
     for (Surroundings* s : {kept.get(), fresh.get()}) {
       s->begin();
       s->setStep((hand - before).norm() + 2e-5);
-      s->addMesh(0, tree, own ? nullptr : &X_AG, Pose{}, s == kept.get() ? &near : nullptr, hand, 0.012);
+      s->addMesh(0, tree, own ? nullptr : &X_AG, kInPlace, s == kept.get() ? &near : nullptr, hand, 0.012);
       ProxyContact contact = slideProxy(tip, hand, kR, *s);
       test::Tip& moved = next[s == kept.get() ? 0 : 1];
       test::holdByCone(contact, moved, hand, {0.4, 0.3}, *s);
@@ -173,7 +175,7 @@ TEST(Surroundings, AreFullWhereEverythingTouches) {
     const Vec3 g(1e-4 * tick, 0, 5e-5 * tick);
     s->begin();
     s->setStep(2e-4);
-    s->addMesh(0, tree, nullptr, Pose{}, nullptr, g, 0.01);
+    s->addMesh(0, tree, nullptr, kInPlace, nullptr, g, 0.01);
     tip = slideProxy(tip, g, kR * 0.9999, *s).state;
     ASSERT_LT(tip.x.norm(), 0.002) << tick;
     ASSERT_GT(distanceFrom(tree.mesh(), tip.x), 0.5 * kR) << tick;
