@@ -122,8 +122,8 @@ class FcaMesh final : public Renderer, public ProxyMover {
     return tool == tools_.end() ? nullptr : &*tool;
   }
 
-  /// The place of x on the surface; no triangle when it is not on it. Friction's point is where it was left, or else where
-  /// the tool touches; only after both the surroundings are searched.
+  /// The place of x on the surface; no triangle when it is not on it. Friction's point is where it was left, or else
+  /// where the tool touches; only after both the surroundings are searched.
   Place placeOf(const Vec3& x, double r, Surroundings& near) const noexcept {
     if (const Tool* tool = toolOf(near); tool != nullptr && tool->touching) {
       Place place = tool->place;

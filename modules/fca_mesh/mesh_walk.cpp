@@ -32,8 +32,8 @@ PreparedTriangle prepared(const WalkMesh& mesh, std::int32_t t) noexcept {
   return {a, b, c};
 }
 
-/// Shares of a point's foot on the plane of a triangle, times `area`: that of edge i is what the corner opposite has, and
-/// negative beyond the edge.
+/// Shares of a point's foot on the plane of a triangle, times `area`: that of edge i is what the corner opposite has,
+/// and negative beyond the edge.
 struct EdgeShares {
   EdgeShares(const PreparedTriangle& t, const Vec3& p) noexcept : area(t.ab_ab * t.ac_ac - t.ab_ac * t.ab_ac) {
     const Vec3 ap = p - t.a;
@@ -85,8 +85,8 @@ void sharing(const WalkMesh& mesh, const SurfacePoint& at, const Use& use) noexc
 }
 
 /// From one plane to the next towards g, as long as g lies beyond the edge in the plane that is left and within it in
-/// the next: every such step brings the half-plane nearer. True where the foot of g lies inside the triangle; then it is
-/// the nearest point there, and no neighbour is to be asked. Else at.triangle is where the exact walk begins.
+/// the next: every such step brings the half-plane nearer. True where the foot of g lies inside the triangle; then it
+/// is the nearest point there, and no neighbour is to be asked. Else at.triangle is where the exact walk begins.
 bool glide(const WalkMesh& mesh, const Vec3& g, SurfacePoint& at) noexcept {
   std::int32_t now = at.triangle;
   for (int step = 0; step < kMaxSteps; ++step) {

@@ -7,8 +7,8 @@
 
 namespace presa::fca {
 
-/// A mesh with all that the walk needs of a triangle in one place: on a fine mesh every crossed edge leads to memory that
-/// no tick has met yet. 88 bytes a triangle. Thread: any.
+/// A mesh with all that the walk needs of a triangle in one place: on a fine mesh every crossed edge leads to memory
+/// that no tick has met yet. 88 bytes a triangle. Thread: any.
 class WalkMesh {
  public:
   /// A triangle and its neighbours.
@@ -54,8 +54,8 @@ struct SurfacePoint {
 
 /// Walks over the mesh from a triangle towards g: across edges while the foot of g on the triangle's plane lies beyond;
 /// then from the point of the triangle nearest to g, across the edge or around the vertex where that lies, to whichever
-/// neighbour is nearer, until none is. The way never leaves the surface. A crossed edge leads to a half-plane nearer to g,
-/// each later step to a nearer point; the end is a local minimum. At most kMaxSteps triangles each. Thread: any;
+/// neighbour is nearer, until none is. The way never leaves the surface. A crossed edge leads to a half-plane nearer to
+/// g, each later step to a nearer point; the end is a local minimum. At most kMaxSteps triangles each. Thread: any;
 /// nonblocking.
 SurfacePoint walk(const WalkMesh& mesh, std::int32_t from, const Vec3& g) noexcept;
 inline constexpr int kMaxSteps = 256;
