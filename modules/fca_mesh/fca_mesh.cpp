@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "framework/geometry/closest_point.h"
 #include "framework/haptics/renderer.h"
 #include "modules/fca_mesh/mesh_walk.h"
 
@@ -25,6 +26,13 @@ struct Tool {
   std::int32_t held = -1;              ///< triangle of place.mesh
   Vec3 held_at = Vec3::Zero();         ///< on that triangle, where move() ended
 };
+
+/// Distance of x from the place's triangle: what is nearest is no farther.
+double distanceOf(const Place& place, const Vec3& x) noexcept {
+  const auto& [a, b, c] = place.mesh->face(place.triangle).corners;
+  const Vec3 x_G = place.X_AG.inverseTimes(x);
+  return (closestOnTriangle(x_G, a, b, c) - x_G).norm();
+}
 
 ProxyMove freeAt(const Vec3& g) noexcept {
   ProxyMove moved{};
@@ -146,7 +154,12 @@ class FcaMesh final : public Renderer, public ProxyMover {
   /// In free space: on the mesh that the tool faced in the last tick it starts from the triangle there, to enter by the
   /// side where it was; else from the nearest one.
   void face(const RenderInput& in, Tool& tool) const noexcept {
-    const Place nearest = nearestTo(in.g, std::numeric_limits<double>::infinity(), in.near);
+    constexpr double kRounding = 1e-9;
+    const bool known = tool.place.triangle >= 0;
+    Place nearest;
+    if (known) nearest = nearestTo(in.g, (1 + kRounding) * distanceOf(tool.place, in.g), in.near);
+    // none if another body carried that triangle, and has moved on
+    if (nearest.triangle < 0) nearest = nearestTo(in.g, std::numeric_limits<double>::infinity(), in.near);
     const std::int32_t faced =
         tool.place.mesh == nearest.mesh && tool.place.body == nearest.body ? tool.place.triangle : -1;
     tool.place = nearest;

@@ -97,12 +97,15 @@ std::string tagOf(const Result& result, const Outcome& outcome, const std::vecto
   return tag;
 }
 
-/// The knobs, the one to colour by first.
+/// The knobs, the one to colour by first, and the one to draw by shape second: of two, not one with more values than
+/// there are shapes.
 std::vector<std::size_t> ranked(const Result& result, std::vector<std::size_t> knobs) {
   const auto rank = [&](std::size_t k) {
     return result.outcomes.front().setting.choices[k].first == "engine" ? INFINITY : effectOf(result, k);
   };
   std::stable_sort(knobs.begin(), knobs.end(), [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+  const auto fits = [&](std::size_t k) { return valuesOf(result, k).size() <= std::size(kShapes); };
+  if (knobs.size() > 1 && fits(knobs[0]) && !fits(knobs[1])) std::swap(knobs[0], knobs[1]);
   return knobs;
 }
 

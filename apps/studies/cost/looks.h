@@ -18,7 +18,7 @@ struct Looks {
 };
 /// Where every setting differs from the default in one knob, each knob has its colour and shape. In a grid the engine,
 /// or else the knob with the largest effect on the first judged error and the cost, gives the colour, the next one the
-/// shape.
+/// shape; the other way round where that one has more values than there are shapes.
 Looks looksOf(const Result& result);
 
 }  // namespace presa::cost

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "apps/common/report/page.h"
 #include "apps/studies/cost/looks.h"
@@ -69,6 +72,27 @@ TEST(Looks, LabelsAreNotAmbiguous) {
   const Looks looks = looksOf(result);
   const std::vector<std::string> expected{"default", "voxel 2", "spacing 2", "dahl", "2, 2"};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(looks.of[i].tag, expected[i]);
+}
+
+// Seven laws and three rates, whose effect is larger: shapes would repeat for the laws.
+TEST(Looks, EveryValueHasItsOwn) {
+  Result result;
+  result.metrics = {"force_rms"};
+  result.study.sentences.push_back({.kind = SentenceRule::Kind::kFront, .metric = "force_rms"});
+  std::vector<std::pair<std::string, double>> rates{{"1000", 1}, {"2000", 2}, {"4000", 4}};
+  for (const auto& [rate, cost] : rates) {
+    for (int law = 0; law < 7; ++law) {
+      Outcome& outcome = result.outcomes.emplace_back();
+      outcome.setting.choices = {{"law", "law " + std::to_string(law)}, {"haptic_rate", rate}};
+      outcome.error["force_rms"] = 1 / cost;
+      Timing timing;
+      timing.per_second = 0.001 * cost;
+      outcome.timings.push_back(timing);
+    }
+  }
+  std::set<std::pair<int, int>> looks;
+  for (const Look& look : looksOf(result).of) looks.insert({look.color, look.shape});
+  EXPECT_EQ(looks.size(), result.outcomes.size());
 }
 
 /// Relative luminance of a colour variable of the page, as WCAG defines it; the first of them is of the light theme.
