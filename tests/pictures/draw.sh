@@ -52,6 +52,7 @@ scene() {  # PROGRAMS OUT NAME ARGS…: at the middle of the hold; where there i
     pile) args+=(--screenshot-at 3.4) ;;
     plane | stiffness_pair) args+=(--screenshot-at 4.5) ;;
     rate_*) args+=(--screenshot-at 1.6) ;;
+    renderer_penalty) args+=(--screenshot-at 3) ;; # on the seam
     stribeck_beside_coulomb) args+=(--screenshot-at 4.3) ;;
     thin_plate) args+=(--screenshot-at 6) ;;
     two_hands | wall) args+=(--screenshot-at 4.2) ;;
