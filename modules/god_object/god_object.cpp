@@ -215,10 +215,7 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
     }
     solve(result.x, g, leg);
     result.touching = leg.target.active_count > 0;
-    if (result.touching) {
-      result.body = holdingBody(leg, g);
-      result.active = activeSet(leg);
-    }
+    if (result.touching) result.body = holdingBody(leg, g);
     const Vec3 move = leg.target.y - result.x;
     const double length = move.norm();
     arrived = length <= tolerance.still;
@@ -237,10 +234,8 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   if (!met) result.first_touch = result.x;
   // out of legs between one edge and the next: the last contact still holds, and the next tick continues from here
   if (!arrived && result.body != kNoBody && isNear(result.x, r, surroundings)) result.touching = true;
-  if (!result.touching) {
-    result.body = kNoBody;
-    result.active.count = 0;
-  }
+  if (!result.touching) result.body = kNoBody;
+  if (leg.target.active_count > 0) result.active = activeSet(leg);
   return result;
 }
 
