@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""The haptic tick of `presa run` alone and beside its window, in random order, so that a machine whose speed swings
+favours neither: beside_window.py [TURNS] [SECONDS], by default 38 turns of 5 s. It needs Xvfb and a built Presa."""
+import json
+import math
+import os
+import pathlib
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+VIEWS = {"alone": "none", "window": "window"}
+
+
+def tick(view, seconds, folder):
+    """Execution time [us] of the haptic tick at the median of one run in real time."""
+    summary = pathlib.Path(folder, "summary.json")
+    subprocess.run([ROOT / "build/bin/presa", "run", ROOT / "config/scenes/cube.xml", "--realtime", "--quiet", "--view",
+                    view, "--for", str(seconds), "--summary", summary], check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    return json.loads(summary.read_text(encoding="utf-8"))["rates"]["haptic"]["execution_us"]["p50"]
+
+
+def shift(times):
+    """Ratio of the two by Hodges and Lehmann: the median over all pairs. Slow minutes of the machine move it little."""
+    return math.exp(statistics.median(math.log(w / a) for a in times["alone"] for w in times["window"]))
+
+
+def interval(times, draws=1000):
+    """95 % interval of that ratio, by bootstrap."""
+    chance = random.Random(1)
+    found = sorted(shift({name: chance.choices(v, k=len(v)) for name, v in times.items()}) for _ in range(draws))
+    return found[draws // 40], found[-1 - draws // 40]
+
+
+def main(turns=38, seconds=5):
+    read, write = os.pipe()
+    with subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x720x24"], pass_fds=[write],
+                          stderr=subprocess.DEVNULL) as server, tempfile.TemporaryDirectory() as folder:
+        try:
+            os.environ["DISPLAY"] = ":" + os.read(read, 16).decode().strip()
+            times = {name: [] for name in VIEWS}
+            for turn in range(turns):
+                for name in random.sample(list(VIEWS), len(VIEWS)):
+                    times[name].append(tick(VIEWS[name], seconds, folder))
+                print(f"turn {turn + 1} of {turns}: alone {times['alone'][-1]:.2f} us, beside the window "
+                      f"{times['window'][-1]:.2f} us", flush=True)
+        finally:
+            server.terminate()
+    for name, found in times.items():
+        print(f"{name}: median {statistics.median(found):.2f} us, min {min(found):.2f} us")
+    low, high = interval(times)
+    print(f"beside the window x {shift(times):.3f} (95 % interval {low:.3f} to {high:.3f})")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:3]))
