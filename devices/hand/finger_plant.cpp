@@ -59,10 +59,11 @@ double spectralRadius(const FingerImpedance& impedance, double contact_stiffness
   // dynamics)
   using State = Eigen::Matrix<double, 5, 1>;
   const int ticks = static_cast<int>(std::lround(dynamics_period / period));
+  const FingerPlant at_rest(impedance, period);
   Eigen::Matrix<double, 5, 5> map;
   for (int column = 0; column < 5; ++column) {
     State s = State::Unit(column);
-    FingerPlant plant(impedance, period);
+    FingerPlant plant = at_rest;
     plant.reset({s[0], 0, 0}, {s[1], 0, 0});
     const double from = s[2], to = s[3] + (period + dynamics_period) * s[4];
     for (int i = 0; i < ticks; ++i) {
@@ -84,13 +85,14 @@ double heldObjectDampingBound(const FingerImpedance& impedance, double contact_s
     damped.damping = damping;
     return spectralRadius(damped, contact_stiffness, period, dynamics_period) < 1;
   };
+  constexpr double kNone = 1e-6;  // [N s/m]: a finger that settles with less needs no damping
   double low = 0, high = 1;
   while (!settles(high) && high < 1e6) {
     low = high;
     high *= 2;
   }
-  while (high - low > 1e-3 * high) (settles((low + high) / 2) ? high : low) = (low + high) / 2;
-  return high;
+  while (high > kNone && high - low > 1e-3 * high) (settles((low + high) / 2) ? high : low) = (low + high) / 2;
+  return high > kNone ? high : 0;
 }
 
 double automaticDamping(const FingerImpedance& impedance, double contact_stiffness, double period,

@@ -30,7 +30,8 @@ double wallDampingBound(double contact_stiffness, double period) noexcept;
 /// Min damping [N s/m] for which a held massless object settles. Such an object moves in a straight line to the
 /// predicted position of the finger at the end of the dynamics step (position and velocity of the newest sample). The
 /// prediction misses the finger's acceleration, and the contact spring turns that error into force. The bound comes
-/// from the spectral radius of this loop over one dynamics step; objects with mass need less damping.
+/// from the spectral radius of this loop over one dynamics step; objects with mass need less damping. Zero if none is
+/// needed.
 double heldObjectDampingBound(const FingerImpedance& impedance, double contact_stiffness, double period,
                               double dynamics_period);
 

@@ -89,6 +89,13 @@ TEST(FingerPlant, HeldObjectBoundIsWhereAPushStopsGrowing) {
   }
 }
 
+// A soft contact settles whatever the damping: the bisection ends at zero (it went on to the smallest number that a
+// double can hold, 30 ms of each load).
+TEST(FingerPlant, HeldObjectBoundIsZeroWhereNoDampingIsNeeded) {
+  const FingerImpedance impedance{.mass = 0.1, .stiffness = 300};
+  EXPECT_EQ(heldObjectDampingBound(impedance, 50, 1e-3, 5e-3), 0);
+}
+
 constexpr const char* kPinch = R"(<motion version="1.0" name="pinch">
   <finger mass="0.1" stiffness="300" damping="auto"/>
   <grasp point="0 0 0.04" axis="1 0 0" width="0.07" open="0.03"/>
