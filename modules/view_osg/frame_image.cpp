@@ -19,21 +19,6 @@ namespace {
 
 constexpr int kLightSteps = 4096;
 
-/// A pixel that covers its background by `alpha`: its colour over black is alpha times its own.
-struct Cover {
-  double alpha = 0;
-  std::array<double, 3> light{};  ///< times alpha
-
-  void add(const unsigned char* black, const unsigned char* white) {
-    int through = 0;  // of the background, summed over the three channels
-    for (std::size_t c = 0; c < 3; ++c) through += std::max(0, white[c] - black[c]);
-    const double covered = 1 - through / 765.0;
-    if (covered <= 0) return;
-    alpha += covered;
-    for (std::size_t c = 0; c < 3; ++c) light[c] += covered * srgb::toLinear(std::min(1.0, black[c] / (255 * covered)));
-  }
-};
-
 struct SrgbTables {
   std::array<float, 256> light;
   std::array<unsigned char, kLightSteps + 1> code;
@@ -52,7 +37,21 @@ void FrameGrabber::operator()(osg::RenderInfo& info) const {
   armed_ = false;
   const osg::GraphicsContext::Traits* traits = info.getState()->getGraphicsContext()->getTraits();
   image_ = new osg::Image;
-  image_->readPixels(0, 0, traits->width, traits->height, GL_RGB, GL_UNSIGNED_BYTE);
+  // as the frame buffer holds it: for RGB, Mesa would make a program and draw the frame once more
+  image_->readPixels(0, 0, traits->width, traits->height, GL_BGRA, GL_UNSIGNED_BYTE);
+}
+
+osg::ref_ptr<osg::Image> FrameGrabber::take() {
+  const osg::ref_ptr<osg::Image> read = std::exchange(image_, nullptr);
+  if (!read) return nullptr;
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(read->s(), read->t(), 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+  for (int y = 0; y < read->t(); ++y) {
+    const unsigned char* from = read->data(0, y);
+    unsigned char* to = image->data(0, y);
+    for (int x = 0; x < read->s(); ++x, from += 4, to += 3) to[0] = from[2], to[1] = from[1], to[2] = from[0];
+  }
+  return image;
 }
 
 osg::ref_ptr<osg::Image> shrink(osg::Image& image, int factor) {
@@ -76,25 +75,24 @@ osg::ref_ptr<osg::Image> shrink(osg::Image& image, int factor) {
   return small;
 }
 
-osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor) {
-  osg::ref_ptr<osg::Image> small = new osg::Image;
-  small->allocateImage(over_black.s() / factor, over_black.t() / factor, 1, GL_RGBA, GL_UNSIGNED_BYTE, 1);
-  for (int y = 0; y < small->t(); ++y) {
-    for (int x = 0; x < small->s(); ++x) {
-      Cover sum;
-      for (int i = 0; i < factor * factor; ++i) {
-        const int from_x = factor * x + i % factor, from_y = factor * y + i / factor;
-        sum.add(over_black.data(from_x, from_y), over_white.data(from_x, from_y));
-      }
-      unsigned char* pixel = small->data(x, y);
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white) {
+  osg::ref_ptr<osg::Image> image = new osg::Image;
+  image->allocateImage(over_black.s(), over_black.t(), 1, GL_RGBA, GL_UNSIGNED_BYTE, 1);
+  for (int y = 0; y < image->t(); ++y) {
+    for (int x = 0; x < image->s(); ++x) {
+      const unsigned char* black = over_black.data(x, y);
+      const unsigned char* white = over_white.data(x, y);
+      int through = 0;  // of the background, summed over the three channels
+      for (std::size_t c = 0; c < 3; ++c) through += std::max(0, white[c] - black[c]);
+      const double alpha = 1 - through / 765.0;
+      unsigned char* pixel = image->data(x, y);
+      // over black, a colour is alpha times its own
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = sum.alpha > 0 ? static_cast<unsigned char>(
-                                       std::lround(255 * srgb::fromLinear(std::min(1.0, sum.light[c] / sum.alpha))))
-                                 : 0;
-      pixel[3] = static_cast<unsigned char>(std::lround(255 * sum.alpha / (factor * factor)));
+        pixel[c] = alpha > 0 ? static_cast<unsigned char>(std::lround(std::min(255.0, black[c] / alpha))) : 0;
+      pixel[3] = static_cast<unsigned char>(std::lround(255 * alpha));
     }
   }
-  return small;
+  return image;
 }
 
 std::string writePng(const osg::Image& image, const std::string& file) {

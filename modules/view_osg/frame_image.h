@@ -5,12 +5,13 @@
 
 namespace presa::view {
 
-/// Copies the finished frame out of the frame buffer on request.
+/// Copies the finished frame out of the frame buffer that is read at present, on request.
 class FrameGrabber : public osg::Camera::DrawCallback {
  public:
   /// Captures the next frame.
   void arm() { armed_ = true; }
-  osg::ref_ptr<osg::Image> take() { return std::exchange(image_, nullptr); }
+  /// The captured frame, RGB; null if there is none.
+  osg::ref_ptr<osg::Image> take();
   void operator()(osg::RenderInfo& info) const override;
 
  private:
@@ -22,8 +23,8 @@ class FrameGrabber : public osg::Camera::DrawCallback {
 /// codes.
 osg::ref_ptr<osg::Image> shrink(osg::Image& image, int factor);
 
-/// RGBA image without its background, from the same frame over black and over white; averaged as by `shrink`.
-osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white, int factor);
+/// RGBA image without its background, from the same frame over black and over white.
+osg::ref_ptr<osg::Image> cutOut(const osg::Image& over_black, const osg::Image& over_white);
 
 /// Returns "" on success, else the reason for the failure.
 std::string writePng(const osg::Image& image, const std::string& file);

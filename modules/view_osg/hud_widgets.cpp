@@ -7,6 +7,11 @@
 #include <osgText/Font>
 
 namespace presa::view {
+namespace {
+
+constexpr float kLargeText = 19;  ///< glyphs are twice as fine as text in a window of 720 lines, or a little more [line]
+
+}  // namespace
 
 osg::ref_ptr<osgText::Font> loadFont(Typeface typeface) {
   static const std::string folder = "/usr/share/fonts/truetype/dejavu/";
@@ -15,13 +20,16 @@ osg::ref_ptr<osgText::Font> loadFont(Typeface typeface) {
                                                    : "DejaVuSans.ttf";
   osg::ref_ptr<osgText::Font> font;
   if (std::filesystem::exists(folder + file)) font = osgText::readRefFontFile(folder + file);
+  // Without mipmaps, which Mesa draws with programs that it compiles in each process: 0.1 s until the first picture.
+  if (font) font->setMinFilterHint(osg::Texture::LINEAR);
   return font ? font : osgText::Font::getDefaultFont();
 }
 
 Label::Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& color, Typeface typeface, Align align) {
   text_->setDataVariance(osg::Object::DYNAMIC);
   text_->setFont(loadFont(typeface));
-  text_->setFontResolution(48, 48);
+  const unsigned pixels = size < kLargeText ? 28 : 48;
+  text_->setFontResolution(pixels, pixels);
   text_->setCharacterSize(size);
   text_->setPosition({x, y, 0});
   text_->setColor(color);

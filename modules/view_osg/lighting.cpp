@@ -44,6 +44,7 @@ osg::ref_ptr<osg::Camera> softeningPass(int order, osg::Program* program, osg::T
   osg::ref_ptr<osg::Camera> camera = new osg::Camera;
   camera->setRenderOrder(osg::Camera::PRE_RENDER, order);
   camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  camera->setImplicitBufferAttachmentMask(0, 0);
   camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera->setClearMask(0);
   camera->setViewport(0, 0, target->getTextureWidth(), target->getTextureHeight());
@@ -102,6 +103,7 @@ void Lighting::addMap(const char* name, int texels, const Vec3& direction, const
   camera->setName(std::string(name) + " map");
   camera->setRenderOrder(osg::Camera::PRE_RENDER, 0);
   camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  camera->setImplicitBufferAttachmentMask(0, 0);  // no colours
   camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
   camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   camera->setClearMask(GL_DEPTH_BUFFER_BIT);

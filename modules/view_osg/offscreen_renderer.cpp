@@ -15,37 +15,29 @@ namespace presa::view {
 namespace {
 
 constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered larger than it is [pixel]
-constexpr int kLarger = 2;       ///< so many times
-constexpr double kVideoLarger = 1.5;
-
-bool isSmoothed(const PictureOptions& options) { return std::max(options.width, options.height) <= kSmoothed; }
+constexpr double kLarger = 1.5;  ///< so many times: at twice, nobody sees a difference, but it takes longer by half
 
 class OffscreenRenderer final : public Renderer {
  public:
   OffscreenRenderer(Picture& picture, const PictureOptions& options, Pictures pictures)
       : picture_(picture),
+        retained_(picture, grabber_),
         follow_(options, picture.elevation()),
         background_(options.background),
-        supersample_(pictures == Pictures::kOne && isSmoothed(options) ? kLarger : 1),
-        aspect_(static_cast<double>(options.width) / options.height),
-        context_(supersample_ * options.width, supersample_ * options.height) {
-    const int width = supersample_ * options.width, height = supersample_ * options.height;
-    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, width, height);
+        aspect_(static_cast<double>(options.width) / options.height) {
+    picture.setQuick(pictures == Pictures::kSeveral);
+    // front to back, so that hidden surfaces are not shaded
+    osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
+    window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, options.width, options.height);
     viewer_.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer_.setKeyEventSetsDone(0);
     viewer_.setLightingMode(osg::View::NO_LIGHT);
-    if (pictures != Pictures::kOne) {
-      picture.setQuick(true);
-      retained_.emplace(picture);
-      const double larger = pictures == Pictures::kVideo ? kVideoLarger : kLarger;
-      retained_->setSize(width, height, isSmoothed(options) ? larger : 1);
-    }
-    viewer_.setSceneData(root());
-    osg::Camera* camera = viewer_.getCamera();
-    camera->setFinalDrawCallback(grabber_);
-    camera->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
-    clearTo(1);  // seen only without a sky
-    if (!retained_) picture.setSize(width, height);
+    viewer_.setSceneData(retained_.root());
+    viewer_.getCamera()->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
+    viewer_.getCamera()->setClearMask(0);  // the frame buffer object is the picture
+    retained_.setSize(options.width, options.height,
+                      std::max(options.width, options.height) <= kSmoothed ? kLarger : 1);
+    retained_.clearTo(1);  // seen only without a sky
     picture.hud().setAspect(aspect_);
     viewer_.realize();
   }
@@ -53,7 +45,7 @@ class OffscreenRenderer final : public Renderer {
   ~OffscreenRenderer() override {
     context_.makeCurrent();
     const unsigned id = window_->getState()->getContextID();
-    root()->releaseGLObjects(window_->getState());
+    retained_.root()->releaseGLObjects(window_->getState());
     viewer_.setSceneData(nullptr);
     osg::deleteAllGLObjects(id);
   }
@@ -63,16 +55,16 @@ class OffscreenRenderer final : public Renderer {
     osg::Camera& camera = *viewer_.getCamera();
     camera.setViewMatrixAsLookAt(toOsg(pose.eye), toOsg(pose.target), toOsg(upOf(pose)));
     picture_.seenFrom(pose);
-    if (retained_) retained_->prepare(camera.getViewMatrix() * camera.getProjectionMatrix(), picture_.time(), true);
+    retained_.prepare(camera.getViewMatrix() * camera.getProjectionMatrix(), picture_.time(), true);
     viewer_.frame();
   }
   osg::ref_ptr<osg::Image> capture() override {
     const osg::ref_ptr<osg::Image> frame = grab();
-    if (background_ != PictureOptions::Background::kTransparent) return shrink(*frame, supersample_);
-    clearTo(0);
+    if (background_ != PictureOptions::Background::kTransparent) return frame;
+    retained_.clearTo(0);
     const osg::ref_ptr<osg::Image> over_black = grab();
-    clearTo(1);
-    return cutOut(*over_black, *frame, supersample_);
+    retained_.clearTo(1);
+    return cutOut(*over_black, *frame);
   }
   bool closed() const override { return false; }
   bool takePictureRequest() override { return false; }
@@ -84,23 +76,20 @@ class OffscreenRenderer final : public Renderer {
     const double finished = picture_.finishedFor();
     return finished < 0 ? pose : walk_.at(finished, 0, pose, picture_.middleOfGoals());
   }
-  osg::Group* root() { return retained_ ? retained_->root() : picture_.root(); }
   osg::ref_ptr<osg::Image> grab() {
     grabber_->arm();
     render();
     return grabber_->take();
   }
-  void clearTo(float grey) { viewer_.getCamera()->setClearColor({grey, grey, grey, 1}); }
 
   Picture& picture_;
-  std::optional<RetainedSpace> retained_;  // for more than one picture
+  osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
+  RetainedSpace retained_;
   FollowCamera follow_;
   FinishWalk walk_;
   const PictureOptions::Background background_;
-  const int supersample_;
   const double aspect_;
-  EglContext context_;
-  osg::ref_ptr<FrameGrabber> grabber_ = new FrameGrabber;
+  EglContext context_{1, 1};  // nothing is drawn into its own buffer
   osgViewer::Viewer viewer_;
   osg::ref_ptr<osgViewer::GraphicsWindowEmbedded> window_;
 };

@@ -13,25 +13,36 @@ namespace {
 
 constexpr double kHudPeriod = 0.06;  ///< between two pictures of the head-up display [s]; nobody reads faster
 
-void makeTarget(osg::Texture2D& texture, osg::Texture::FilterMode filter) {
+void makeTarget(osg::Texture2D& texture) {
   texture.setInternalFormat(GL_RGBA8);
   texture.setSourceFormat(GL_RGBA);
   texture.setSourceType(GL_UNSIGNED_BYTE);
   texture.setResizeNonPowerOfTwoHint(false);
-  texture.setFilter(osg::Texture::MIN_FILTER, filter);
-  texture.setFilter(osg::Texture::MAG_FILTER, filter);
 }
 
 void drawInto(osg::Camera& camera, osg::Texture2D& texture) {
   camera.setRenderOrder(osg::Camera::PRE_RENDER);
   camera.setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+  camera.setImplicitBufferAttachmentMask(0, 0);  // no buffer but those that are attached: none that nobody reads
   camera.attach(osg::Camera::COLOR_BUFFER, &texture);
 }
 
-/// Copies a texture into the window.
-class CopyToWindow final : public osg::Drawable {
+void filter(osg::Texture2D& texture, bool smooth) {
+  const auto mode = smooth ? osg::Texture::LINEAR : osg::Texture::NEAREST;
+  texture.setFilter(osg::Texture::MIN_FILTER, mode);
+  texture.setFilter(osg::Texture::MAG_FILTER, mode);
+}
+
+void resize(osg::Camera& camera, int width, int height) {
+  camera.resizeAttachments(width, height);
+  camera.setViewport(0, 0, width, height);
+}
+
+/// Copies a texture into the window, or lets it be grabbed.
+class HandOut final : public osg::Drawable {
  public:
-  explicit CopyToWindow(osg::Texture2D* texture) : source_(new osg::FrameBufferObject) {
+  HandOut(osg::Texture2D* texture, osg::ref_ptr<FrameGrabber> grabber)
+      : source_(new osg::FrameBufferObject), grabber_(std::move(grabber)) {
     source_->setAttachment(osg::Camera::COLOR_BUFFER, osg::FrameBufferAttachment(texture));
     setCullingActive(false);
     setUseDisplayList(false);
@@ -41,12 +52,16 @@ class CopyToWindow final : public osg::Drawable {
     osg::State& state = *info.getState();
     source_->apply(state, osg::FrameBufferObject::READ_FRAMEBUFFER);
     const auto* gl = state.get<osg::GLExtensions>();
-    gl->glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    if (grabber_)
+      (*grabber_)(info);
+    else
+      gl->glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     gl->glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, 0);
   }
 
  private:
   osg::ref_ptr<osg::FrameBufferObject> source_;
+  osg::ref_ptr<FrameGrabber> grabber_;
   int width_ = 0, height_ = 0;
 };
 
@@ -65,9 +80,9 @@ void addTo(std::vector<PixelRect>& parts, const PixelRect& part) {
 
 }  // namespace
 
-RetainedSpace::RetainedSpace(Picture& picture) : picture_(picture) {
-  makeTarget(*space_, osg::Texture::LINEAR);
-  makeTarget(*hud_, osg::Texture::NEAREST);
+RetainedSpace::RetainedSpace(Picture& picture, osg::ref_ptr<FrameGrabber> grabber) : picture_(picture) {
+  makeTarget(*space_);
+  makeTarget(*hud_);
   camera_->setName("space");
   drawInto(*camera_, *space_);
   camera_->setReferenceFrame(osg::Transform::RELATIVE_RF);
@@ -83,7 +98,8 @@ RetainedSpace::RetainedSpace(Picture& picture) : picture_(picture) {
   hud.setClearColor({0, 0, 0, 0});
 
   // in the window's own format, so that the copy is a plain one
-  makeTarget(*window_, osg::Texture::NEAREST);
+  makeTarget(*window_);
+  filter(*window_, false);
   window_->setSourceFormat(GL_BGRA);
   window_->setSourceType(GL_UNSIGNED_INT_8_8_8_8_REV);
   both_->setName("both");
@@ -107,7 +123,7 @@ RetainedSpace::RetainedSpace(Picture& picture) : picture_(picture) {
   state->addUniform(new osg::Uniform("space", 0));
   state->addUniform(new osg::Uniform("hud", 1));
   state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-  copy_ = new CopyToWindow(window_);
+  copy_ = new HandOut(window_, std::move(grabber));
   for (osg::Node* part : {static_cast<osg::Node*>(camera_), static_cast<osg::Node*>(&hud),
                           static_cast<osg::Node*>(both_), static_cast<osg::Node*>(copy_)})
     root_->addChild(part);
@@ -119,16 +135,18 @@ void RetainedSpace::setSize(int width, int height, double share) {
   picture_.setSize(width_, height_);
   camera_->resizeAttachments(width_, height_);
   // of a larger size, each pixel is a mean of four: the nearest of them would depend on rounding, and smooth nothing
-  const auto filter = share != 1 ? osg::Texture::LINEAR : osg::Texture::NEAREST;
-  space_->setFilter(osg::Texture::MIN_FILTER, filter);
-  space_->setFilter(osg::Texture::MAG_FILTER, filter);
-  for (osg::Camera* camera : {picture_.hud().camera(), both_.get()}) {
-    camera->resizeAttachments(width, height);
-    camera->setViewport(0, 0, width, height);
-  }
-  static_cast<CopyToWindow&>(*copy_).setSize(width, height);
+  filter(*space_, share != 1);
+  filter(*hud_, share > 1);
+  resize(*picture_.hud().camera(), std::max(width, width_), std::max(height, height_));
+  resize(*both_, width, height);
+  static_cast<HandOut&>(*copy_).setSize(width, height);
   pending_.all = true;
   hud_drawn_ = -1e300;
+}
+
+void RetainedSpace::clearTo(float grey) {
+  camera_->setClearColor({grey, grey, grey, 1});
+  pending_.all = true;
 }
 
 void RetainedSpace::prepare(const osg::Matrixd& view_projection, double clock, bool now) {
@@ -149,6 +167,7 @@ void RetainedSpace::prepare(const osg::Matrixd& view_projection, double clock, b
 /// Where the window shows the head-up display: a few panels and words; the rest of it is empty.
 std::vector<PixelRect> RetainedSpace::hudParts() {
   osg::Camera& hud = *picture_.hud().camera();
+  const osg::Viewport& window = *both_->getViewport();
   std::vector<Vec3> corners;
   for (unsigned i = 0; i < hud.getNumChildren(); ++i) addCorners(*hud.getChild(i), corners);
   std::vector<PixelRect> parts;
@@ -157,7 +176,7 @@ std::vector<PixelRect> RetainedSpace::hudParts() {
     const auto first = corners.begin() + static_cast<std::ptrdiff_t>(i);
     addTo(parts,
           changedPixels({.all = false, .points = {first, first + kCorners}}, hud.getProjectionMatrix(),
-                        static_cast<int>(hud.getViewport()->width()), static_cast<int>(hud.getViewport()->height())));
+                        static_cast<int>(window.width()), static_cast<int>(window.height())));
   }
   return parts;
 }

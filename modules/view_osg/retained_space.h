@@ -6,6 +6,7 @@
 #include <osg/Uniform>
 #include <vector>
 
+#include "modules/view_osg/frame_image.h"
 #include "modules/view_osg/picture.h"
 
 namespace presa::view {
@@ -15,12 +16,14 @@ namespace presa::view {
 /// even that takes too long, the three-dimensional part is drawn into fewer pixels.
 class RetainedSpace {
  public:
-  /// `picture` must outlive this.
-  explicit RetainedSpace(Picture& picture);
+  /// `picture` must outlive this. Frames are copied to the window, or go to the `grabber` where there is none.
+  explicit RetainedSpace(Picture& picture, osg::ref_ptr<FrameGrabber> grabber = nullptr);
   /// The node to draw in place of the picture's own root.
   osg::Group* root() { return root_; }
   /// Size of the window [pixel] and drawn fraction of its width and height.
   void setSize(int width, int height, double share);
+  /// Grey of what no part of the picture covers, 0 to 1.
+  void clearTo(float grey);
   /// Prepares the next frame, seen through `view_projection`, at a time of the clock [s]. `now`: the head-up display is
   /// drawn, too, even if it was drawn a moment ago.
   void prepare(const osg::Matrixd& view_projection, double clock, bool now);
