@@ -174,9 +174,8 @@ std::vector<PixelRect> RetainedSpace::hudParts() {
   constexpr std::size_t kCorners = 8;  // of each drawable
   for (std::size_t i = 0; i + kCorners <= corners.size(); i += kCorners) {
     const auto first = corners.begin() + static_cast<std::ptrdiff_t>(i);
-    addTo(parts,
-          changedPixels({.all = false, .points = {first, first + kCorners}}, hud.getProjectionMatrix(),
-                        static_cast<int>(window.width()), static_cast<int>(window.height())));
+    addTo(parts, changedPixels({.all = false, .points = {first, first + kCorners}}, hud.getProjectionMatrix(),
+                               static_cast<int>(window.width()), static_cast<int>(window.height())));
   }
   return parts;
 }

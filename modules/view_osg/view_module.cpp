@@ -8,6 +8,7 @@
 #include "framework/core/diagnostics/refuse.h"
 #include "framework/session/module_plugin.h"
 #include "modules/view_osg/frame_image.h"
+#include "modules/view_osg/large_pages.h"
 
 namespace presa::view {
 namespace {
@@ -53,6 +54,7 @@ std::vector<std::string> ViewModule::stages() const {
 
 void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
+  growHeapInLargePages();
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());
