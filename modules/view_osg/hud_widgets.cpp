@@ -9,7 +9,7 @@
 namespace presa::view {
 namespace {
 
-constexpr float kLargeText = 19;  ///< glyphs are twice as fine as text in a window of 720 lines, or a little more [line]
+constexpr float kLargeText = 19;  ///< glyphs of smaller text are 1.7 to 2.8 times as fine as a window of 720 lines shows it [line]
 
 }  // namespace
 
@@ -28,7 +28,7 @@ osg::ref_ptr<osgText::Font> loadFont(Typeface typeface) {
 Label::Label(osg::Group& parent, float x, float y, float size, const osg::Vec4& color, Typeface typeface, Align align) {
   text_->setDataVariance(osg::Object::DYNAMIC);
   text_->setFont(loadFont(typeface));
-  const unsigned pixels = size < kLargeText ? 28 : 48;
+  const unsigned pixels = size < kLargeText ? 32 : 48;
   text_->setFontResolution(pixels, pixels);
   text_->setCharacterSize(size);
   text_->setPosition({x, y, 0});

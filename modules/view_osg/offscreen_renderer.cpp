@@ -15,7 +15,8 @@ namespace presa::view {
 namespace {
 
 constexpr int kSmoothed = 4096;  ///< longest side of a picture that is rendered larger than it is [pixel]
-constexpr double kLarger = 1.5;  ///< so many times: at twice, nobody sees a difference, but it takes longer by half
+constexpr double kLarger = 2;    ///< so many times
+constexpr double kFilmLarger = 1.5;
 
 class OffscreenRenderer final : public Renderer {
  public:
@@ -25,7 +26,7 @@ class OffscreenRenderer final : public Renderer {
         follow_(options, picture.elevation()),
         background_(options.background),
         aspect_(static_cast<double>(options.width) / options.height) {
-    picture.setQuick(pictures == Pictures::kSeveral);
+    picture.setQuick(pictures != Pictures::kOne);
     // front to back, so that hidden surfaces are not shaded
     osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::SORT_FRONT_TO_BACK);
     window_ = viewer_.setUpViewerAsEmbeddedInWindow(0, 0, options.width, options.height);
@@ -35,8 +36,9 @@ class OffscreenRenderer final : public Renderer {
     viewer_.setSceneData(retained_.root());
     viewer_.getCamera()->setProjectionMatrixAsPerspective(kFieldOfView, aspect_, 0.01, 10);
     viewer_.getCamera()->setClearMask(0);  // the frame buffer object is the picture
-    retained_.setSize(options.width, options.height,
-                      std::max(options.width, options.height) <= kSmoothed ? kLarger : 1);
+    const double larger = pictures == Pictures::kFilm ? kFilmLarger : kLarger;
+    const bool smoothed = std::max(options.width, options.height) <= kSmoothed;
+    retained_.setSize(options.width, options.height, smoothed ? larger : 1);
     retained_.clearTo(1);  // seen only without a sky
     picture.hud().setAspect(aspect_);
     viewer_.realize();

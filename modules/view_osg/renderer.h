@@ -25,10 +25,10 @@ class Renderer {
   virtual double sharpness() const { return 1; }
 };
 
-/// Pictures of a run: one, or several, also as a video.
-enum class Pictures { kOne, kSeveral };
-/// Without a display: rendered at 1.5 times the size and averaged; above 4096 pixels as they are. Several are lit as in
-/// a window, and only what changed is drawn.
+/// Pictures of a run: one, some, or the many of a film.
+enum class Pictures { kOne, kSome, kFilm };
+/// Without a display: rendered at twice the size and averaged, a film at 1.5 times, in two thirds of the time; pictures
+/// above 4096 pixels as they are. Some and a film are lit as in a window, and only what changed is drawn.
 std::unique_ptr<Renderer> makeOffscreenRenderer(Picture& picture, const PictureOptions& options, Pictures pictures);
 /// In a window on DISPLAY, at first with the size and the camera of the options. The objects in `controls` must outlive
 /// it. Throws std::runtime_error when there is no display.

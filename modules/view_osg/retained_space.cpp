@@ -83,6 +83,7 @@ void addTo(std::vector<PixelRect>& parts, const PixelRect& part) {
 RetainedSpace::RetainedSpace(Picture& picture, osg::ref_ptr<FrameGrabber> grabber) : picture_(picture) {
   makeTarget(*space_);
   makeTarget(*hud_);
+  filter(*hud_, false);
   camera_->setName("space");
   drawInto(*camera_, *space_);
   camera_->setReferenceFrame(osg::Transform::RELATIVE_RF);
@@ -117,7 +118,7 @@ RetainedSpace::RetainedSpace(Picture& picture, osg::ref_ptr<FrameGrabber> grabbe
   both_->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
   osg::StateSet* state = sheets_->getOrCreateStateSet();
   state->addUniform(new osg::Uniform("part", osg::Vec4(0, 0, 1, 1)));
-  state->setAttributeAndModes(shaders::overlay());
+  state->setAttributeAndModes(shaders::overlay(false));
   state->setTextureAttribute(0, space_, osg::StateAttribute::ON);
   state->setTextureAttribute(1, hud_, osg::StateAttribute::ON);
   state->addUniform(new osg::Uniform("space", 0));
@@ -134,9 +135,12 @@ void RetainedSpace::setSize(int width, int height, double share) {
   width_ = static_cast<int>(std::lround(share * width)), height_ = static_cast<int>(std::lround(share * height));
   picture_.setSize(width_, height_);
   camera_->resizeAttachments(width_, height_);
-  // of a larger size, each pixel is a mean of four: the nearest of them would depend on rounding, and smooth nothing
-  filter(*space_, share != 1);
-  filter(*hud_, share > 1);
+  filter(*space_, share < 1);
+  if (share > 1) {
+    osg::StateSet& state = *sheets_->getOrCreateStateSet();
+    state.setAttributeAndModes(shaders::overlay(true));
+    state.addUniform(new osg::Uniform("larger", static_cast<float>(share)));
+  }
   resize(*picture_.hud().camera(), std::max(width, width_), std::max(height, height_));
   resize(*both_, width, height);
   static_cast<HandOut&>(*copy_).setSize(width, height);

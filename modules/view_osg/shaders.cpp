@@ -539,15 +539,30 @@ void main() {
 }
 )";
 
-// the head-up display is multiplied by its opacity already
+// The head-up display is multiplied by its opacity already. SMOOTH: both are up to twice as large as the picture, and a
+// pixel is the mean of those that it covers, in linear light (nearly the square of a display colour).
 constexpr const char* kOverlay = R"(#version 130
 uniform sampler2D space;
 uniform sampler2D hud;
 in vec2 at;
-void main() {
-  vec4 over = texture(hud, at);
-  gl_FragColor = vec4(texture(space, at).rgb * (1.0 - over.a) + over.rgb, 1.0);
+vec3 both(vec3 under, vec4 over) { return under * (1.0 - over.a) + over.rgb; }
+#ifdef SMOOTH
+uniform float larger;  // so many times
+vec3 light(ivec2 texel) {
+  vec3 color = both(texelFetch(space, texel, 0).rgb, texelFetch(hud, texel, 0));
+  return color * color;
 }
+void main() {
+  vec2 middle = at * vec2(textureSize(space, 0)) - 0.5;
+  ivec2 low = ivec2(middle);
+  vec2 share = 0.5 + (middle - vec2(low) - 0.5) / larger;
+  vec3 below = mix(light(low), light(low + ivec2(1, 0)), share.x);
+  vec3 above = mix(light(low + ivec2(0, 1)), light(low + ivec2(1, 1)), share.x);
+  gl_FragColor = vec4(sqrt(mix(below, above, share.y)), 1.0);
+}
+#else
+void main() { gl_FragColor = vec4(both(texture(space, at).rgb, texture(hud, at)), 1.0); }
+#endif
 )";
 
 /// `text` with definitions inserted after its first line, the version.
@@ -638,7 +653,9 @@ osg::ref_ptr<osg::Program> land() { return plain("land"); }
 osg::ref_ptr<osg::Program> slice() { return program("slice", kSliceVertex, kSlice); }
 osg::ref_ptr<osg::Program> line() { return program("line", kSliceVertex, kLine); }
 
-osg::ref_ptr<osg::Program> overlay() { return copying("overlay", kOverlay); }
+osg::ref_ptr<osg::Program> overlay(bool smooth) {
+  return copying("overlay", smooth ? defined(kOverlay, "#define SMOOTH\n") : kOverlay);
+}
 osg::ref_ptr<osg::Program> moments(int side) {
   return copying("moments", defined(kMoments, "#define SIDE " + std::to_string(side) + "\n#define STEP " +
                                                   (side % 2 == 0 && side > 2 ? "2" : "1") + "\n"));

@@ -38,8 +38,8 @@ osg::ref_ptr<osg::Program> slice();
 /// Lines of one display colour, uniform `line_color`.
 osg::ref_ptr<osg::Program> line();
 /// Puts the head-up display (texture `hud`, multiplied by its opacity) over the picture (`space`); positions in clip
-/// space.
-osg::ref_ptr<osg::Program> overlay();
+/// space. `smooth`: both are `larger` times the size of the picture (uniform, 1 to 2), and are averaged.
+osg::ref_ptr<osg::Program> overlay(bool smooth);
 /// Mean and mean square of the depths in each square of `side` texels of a depth texture (`source`), and their mean over
 /// twice `half_width` texels; uniform `depth_range` [m].
 osg::ref_ptr<osg::Program> moments(int side);

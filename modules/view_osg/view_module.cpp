@@ -76,8 +76,8 @@ std::unique_ptr<Renderer> ViewModule::makeRenderer() {
   const std::string title = "Presa: " + world_->scene.name;
   if (canvas_ != nullptr) return makeWallRenderer(*picture_, *canvas_, windowed(), title);
   if (!windowed()) {
-    const bool several = video_ || !options_.screenshots.empty();
-    return makeOffscreenRenderer(*picture_, options_.picture, several ? Pictures::kSeveral : Pictures::kOne);
+    const Pictures some = options_.screenshots.empty() ? Pictures::kOne : Pictures::kSome;
+    return makeOffscreenRenderer(*picture_, options_.picture, video_ ? Pictures::kFilm : some);
   }
   const bool nameless = options_.participant || forVisitors(*world_);
   return makeWindowRenderer(*picture_, nameless ? "Presa" : title,
