@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <sstream>
 
 #include "framework/geometry/mesh_attributes.h"
@@ -64,25 +65,33 @@ class Import {
         model_(std::move(model)),
         attributes_(attributes) {}
 
-  TriMesh run() {
-    const bool good = checkScale() && checkFile() && read() && checkNumbers() && repair() && checkSurface();
+  /// False: it is refused before it is read.
+  bool prepare() { return checkScale() && checkFile(); }
+  MeshFile file() const {
+    return {file_.c_str(), extension_.c_str(),
+            model_ != nullptr        ? MeshWanted::kModel
+            : attributes_ != nullptr ? MeshWanted::kAttributes
+                                     : MeshWanted::kTriangles};
+  }
+  /// The mesh of what was read; empty after an error.
+  TriMesh finish(const ImportedMesh& imported) {
+    const bool good = take(imported) && checkNumbers() && repair() && checkSurface();
     if (!good) return {};
     buildAdjacency(mesh_);
     return std::move(mesh_);
   }
-
- private:
   bool fail(int code, const std::string& what, const std::string& help) {
     diagnostics_.error(code, where_, "mesh " + file_ + ": " + what, help);
     return false;
   }
+
+ private:
   void warn(int code, const std::string& what, const std::string& help) {
     diagnostics_.warning(code, where_, "mesh " + file_ + ": " + what, help);
   }
 
   bool checkScale();
   bool checkFile();
-  bool read();
   bool take(const ImportedMesh& imported);
   bool takeModel(const ImportedModel& imported);
   bool takeAttributes(const ImportedAttributes& imported);
@@ -126,25 +135,6 @@ bool Import::checkFile() {
     return fail(302, "unknown mesh format '" + extension_ + "'", "use obj, stl, ply, gltf, glb or dae");
   }
   return true;
-}
-
-bool Import::read() {
-  try {
-    const auto import = reinterpret_cast<ImportMeshFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
-    const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
-    const std::unique_ptr<const ImportedMesh, ReleaseMeshFunction> imported(
-        import(file_.c_str(), extension_.c_str(),
-               model_ != nullptr        ? MeshWanted::kModel
-               : attributes_ != nullptr ? MeshWanted::kAttributes
-                                        : MeshWanted::kTriangles),
-        release);
-    return take(*imported);
-  } catch (const InputError& error) {
-    for (const Diagnostic& found : error.diagnostics().all()) fail(300, found.message, found.help);
-    return false;
-  } catch (const std::bad_alloc&) {
-    return fail(303, "the mesh does not fit into memory", "simplify the mesh");
-  }
 }
 
 bool Import::take(const ImportedMesh& imported) {
@@ -340,17 +330,66 @@ bool Import::checkClosed(const MeshReport& report) {
   return true;
 }
 
+using Imported = std::unique_ptr<const ImportedMesh, ReleaseMeshFunction>;
+
+/// What the plug-in reads from these files.
+std::vector<Imported> readFiles(const std::vector<MeshFile>& files) {
+  const auto read = reinterpret_cast<ImportMeshesFunction>(pluginSymbol("mesh_import", kMeshImportSymbol));
+  const auto release = reinterpret_cast<ReleaseMeshFunction>(pluginSymbol("mesh_import", kMeshReleaseSymbol));
+  std::vector<Imported> all;
+  for (std::size_t i = 0; i < files.size(); ++i) all.emplace_back(nullptr, release);
+  std::vector<const ImportedMesh*> found(files.size());
+  read(files.data(), files.size(), found.data());
+  for (std::size_t i = 0; i < files.size(); ++i) all[i].reset(found[i]);
+  return all;
+}
+
+/// Reads the files of several imports at once; meshes[i] is that of imports[i], empty after an error.
+std::vector<TriMesh> run(std::span<Import> imports) {
+  std::vector<TriMesh> meshes(imports.size());
+  std::vector<std::size_t> prepared;
+  std::vector<MeshFile> files;
+  for (std::size_t i = 0; i < imports.size(); ++i) {
+    if (!imports[i].prepare()) continue;
+    prepared.push_back(i);
+    files.push_back(imports[i].file());
+  }
+  if (files.empty()) return meshes;
+  const auto failAll = [&](int code, const std::string& what, const std::string& help) {
+    for (const std::size_t i : prepared) imports[i].fail(code, what, help);
+  };
+  try {
+    std::vector<Imported> imported = readFiles(files);
+    for (std::size_t k = 0; k < prepared.size(); ++k) {
+      meshes[prepared[k]] = imports[prepared[k]].finish(*imported[k]);
+      imported[k].reset();
+    }
+  } catch (const InputError& error) {
+    for (const Diagnostic& found : error.diagnostics().all()) failAll(300, found.message, found.help);
+  } catch (const std::bad_alloc&) {
+    failAll(303, "the mesh does not fit into memory", "simplify the mesh");
+  }
+  return meshes;
+}
+
+TriMesh run(Import import) { return std::move(run(std::span(&import, 1)).front()); }
+
+DrawnMesh drawn(TriMesh mesh, std::shared_ptr<Model> model) {
+  if (mesh.triangles.empty() || model == nullptr || model->parts.empty()) return {std::move(mesh), nullptr};
+  return {std::move(mesh), std::move(model)};
+}
+
 }  // namespace
 
 TriMesh importMesh(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                    Diagnostics& diagnostics) {
-  return Import(file, options, where, diagnostics, nullptr).run();
+  return run(Import(file, options, where, diagnostics, nullptr));
 }
 
 AttributedMesh importAttributed(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                                 Diagnostics& diagnostics) {
   AttributedMesh read;
-  read.mesh = Import(file, options, where, diagnostics, nullptr, &read.attributes).run();
+  read.mesh = run(Import(file, options, where, diagnostics, nullptr, &read.attributes));
   if (read.mesh.triangles.empty()) read.attributes = {};
   return read;
 }
@@ -358,10 +397,24 @@ AttributedMesh importAttributed(const std::string& file, const ImportOptions& op
 DrawnMesh importDrawn(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                       Diagnostics& diagnostics) {
   const auto model = std::make_shared<Model>();
-  DrawnMesh drawn;
-  drawn.mesh = Import(file, options, where, diagnostics, model).run();
-  if (!drawn.mesh.triangles.empty() && !model->parts.empty()) drawn.model = model;
-  return drawn;
+  return drawn(run(Import(file, options, where, diagnostics, model)), model);
+}
+
+std::vector<DrawnMesh> importMeshes(std::span<const MeshOrder> orders, Diagnostics& diagnostics) {
+  std::vector<std::shared_ptr<Model>> models;
+  std::vector<Import> imports;
+  for (const MeshOrder& order : orders) {
+    models.push_back(order.drawn ? std::make_shared<Model>() : nullptr);
+    imports.emplace_back(order.file, order.options, order.where, diagnostics, models.back());
+  }
+  std::vector<DrawnMesh> all;
+  constexpr std::size_t kTogether = 128;  // files whose content is in memory at once
+  for (std::size_t begin = 0; begin < imports.size(); begin += kTogether) {
+    const std::size_t count = std::min(kTogether, imports.size() - begin);
+    std::vector<TriMesh> meshes = run(std::span(imports).subspan(begin, count));
+    for (std::size_t k = 0; k < count; ++k) all.push_back(drawn(std::move(meshes[k]), models[begin + k]));
+  }
+  return all;
 }
 
 }  // namespace presa

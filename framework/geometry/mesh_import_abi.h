@@ -5,7 +5,7 @@
 /// framework depends on no header of the mesh library.
 namespace presa {
 
-inline constexpr std::uint32_t kMeshImportAbi = 5;  ///< version of the structs below; see ImportedMesh::abi
+inline constexpr std::uint32_t kMeshImportAbi = 6;  ///< version of the structs below; see ImportedMesh::abi
 
 /// Maximum size of all files of one mesh together [bytes]: five million triangles as binary STL.
 inline constexpr std::uint64_t kMaxMeshBytes = std::uint64_t{256} << 20U;
@@ -87,13 +87,20 @@ struct ImportedMesh {
   ImportedAttributes attributes;          ///< only when they are asked for
 };
 
-/// Symbol kMeshImportSymbol: reads `file` in the format `extension` (lower case, no dot).
-/// Never null; throws only std::bad_alloc. Thread: any.
-using ImportMeshFunction = const ImportedMesh* (*)(const char* file, const char* extension, MeshWanted wanted);
+/// A file to be read.
+struct MeshFile {
+  const char* file = nullptr;                  ///< path
+  const char* extension = nullptr;             ///< its format: lower case, no dot
+  MeshWanted wanted = MeshWanted::kTriangles;  ///< beside the triangles
+};
+
+/// Symbol kMeshImportSymbol: reads `count` files, several at a time where the machine has several cores; imported[i] is
+/// what files[i] holds, never null. Throws only std::bad_alloc; then there is nothing to free. Thread: any.
+using ImportMeshesFunction = void (*)(const MeshFile* files, std::uint64_t count, const ImportedMesh** imported);
 /// Symbol kMeshReleaseSymbol: frees a result.
 using ReleaseMeshFunction = void (*)(const ImportedMesh*);
 
-inline constexpr const char* kMeshImportSymbol = "presaImportMesh";    ///< an ImportMeshFunction
+inline constexpr const char* kMeshImportSymbol = "presaImportMeshes";  ///< an ImportMeshesFunction
 inline constexpr const char* kMeshReleaseSymbol = "presaReleaseMesh";  ///< a ReleaseMeshFunction
 
 }  // namespace presa

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,15 @@ struct DrawnMesh {
 /// errors as importMesh.
 DrawnMesh importDrawn(const std::string& file, const ImportOptions& options, const SourceLocation& where,
                       Diagnostics& diagnostics);
+
+/// A file for importMeshes.
+struct MeshOrder {
+  std::string file;       ///< path
+  ImportOptions options;  ///< as for importMesh
+  SourceLocation where;   ///< of the findings
+  bool drawn = false;     ///< as importDrawn; else as importMesh, without a model
+};
+/// Several files at once, in a fraction of the time that they take one by one; the results in the order of `orders`.
+std::vector<DrawnMesh> importMeshes(std::span<const MeshOrder> orders, Diagnostics& diagnostics);
 
 }  // namespace presa

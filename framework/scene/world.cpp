@@ -62,13 +62,17 @@ class MeshLibrary {
   }
 
   void importAll(Diagnostics& diagnostics) {
+    std::vector<MeshOrder> orders;
+    std::vector<MeshRequest*> allowed;
     for (MeshRequest& request : requests_) {
       if (!input::checkNamed(request.where, request.ref.file, diagnostics)) continue;
-      DrawnMesh read =
-          request.drawn ? importDrawn(request.ref.file, request.options, request.where, diagnostics)
-                        : DrawnMesh{importMesh(request.ref.file, request.options, request.where, diagnostics), nullptr};
-      request.model = std::move(read.model);
-      if (!read.mesh.triangles.empty()) request.mesh = std::make_shared<const TriMesh>(std::move(read.mesh));
+      orders.push_back({request.ref.file, request.options, request.where, request.drawn});
+      allowed.push_back(&request);
+    }
+    std::vector<DrawnMesh> read = importMeshes(orders, diagnostics);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      allowed[i]->model = std::move(read[i].model);
+      if (!read[i].mesh.triangles.empty()) allowed[i]->mesh = std::make_shared<const TriMesh>(std::move(read[i].mesh));
     }
   }
 

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -87,9 +88,33 @@ std::size_t mappedData() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit(int resource, std::size_t value) {
-  rlimit wanted{value, value};
-  setrlimit(static_cast<__rlimit_resource>(resource), &wanted);
+void limit(__rlimit_resource resource, std::size_t value) {
+  rlimit wanted{};
+  getrlimit(resource, &wanted);
+  wanted.rlim_cur = std::min<rlim_t>(value, wanted.rlim_max);
+  setrlimit(resource, &wanted);
+}
+
+/// Processor time of this process, rounded up [s].
+std::size_t secondsUsed() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<std::size_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 2;
+}
+
+/// Runs one read; what it allocates is counted from the memory that was mapped before the first.
+void work(const IsolatedRead& read, std::size_t mapped, RawMesh& mesh) {
+  limit(RLIMIT_CPU, secondsUsed() + read.limits.seconds);
+  if (kLimitsMemory) limit(RLIMIT_DATA, mapped + read.limits.memory);
+  try {
+    read.work(mesh);
+  } catch (const std::bad_alloc&) {
+    mesh = {};
+    mesh.problem = "the file claims more data than it holds";
+  } catch (const std::exception& error) {
+    mesh = {};
+    mesh.problem = error.what();
+  }
 }
 
 /// Lets the next large allocations come from a heap in large pages: assimp clears 16 MB for each OBJ, whose 4096 page
@@ -106,27 +131,21 @@ void useLargePages() {
 #endif
 }
 
-[[noreturn]] void child(int descriptor, const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
+[[noreturn]] void child(int descriptor, const IsolatedRead* begin, const IsolatedRead* end) {
   // messages of a crashing reader would hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
     std::signal(number, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // die with the parent
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, limits.seconds);
-  if (kLimitsMemory) limit(RLIMIT_DATA, mappedData() + limits.memory);
+  const std::size_t mapped = mappedData();
   useLargePages();
-  RawMesh mesh;
-  try {
-    work(mesh);
-  } catch (const std::bad_alloc&) {
-    mesh = {};
-    mesh.problem = "the file claims more data than it holds";
-  } catch (const std::exception& error) {
-    mesh = {};
-    mesh.problem = error.what();
+  bool heard = true;
+  for (const IsolatedRead* read = begin; read != end && heard; ++read) {
+    RawMesh mesh;
+    work(*read, mapped, mesh);
+    heard = send(descriptor, mesh);
   }
-  send(descriptor, mesh);
   _exit(0);  // run neither destructors nor exit handlers of the parent
 }
 
@@ -136,32 +155,42 @@ std::string causeOfDeath(int status) {
   return std::string("the reader crashed on it (") + strsignal(WTERMSIG(status)) + ")";
 }
 
-}  // namespace
+void refuse(RawMesh& mesh, std::string problem) {
+  mesh = {};
+  mesh.problem = std::move(problem);
+}
 
-RawMesh runIsolated(const IsolationLimits& limits, const std::function<void(RawMesh&)>& work) {
-  RawMesh mesh;
+/// Runs reads in one child until it ends; returns the first that is not settled.
+const IsolatedRead* runInOneChild(const IsolatedRead* begin, const IsolatedRead* end) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    mesh.problem = std::string("no pipe for the reader: ") + std::strerror(errno);
-    return mesh;
+    refuse(*begin->mesh, std::string("no pipe for the reader: ") + std::strerror(errno));
+    return begin + 1;
   }
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
-    child(ends[1], limits, work);
+    child(ends[1], begin, end);
   }
+  const int reason = errno;
   close(ends[1]);
-  const bool whole = process > 0 && receive(ends[0], mesh);
+  const IsolatedRead* next = begin;
+  while (process > 0 && next != end && receive(ends[0], *next->mesh)) ++next;
   close(ends[0]);
   int status = 0;
   while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!whole) {
-    mesh = {};
-    mesh.problem =
-        process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(errno);
-  }
-  return mesh;
+  if (next == end) return end;
+  refuse(*next->mesh,
+         process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(reason));
+  return next + 1;
+}
+
+}  // namespace
+
+void runIsolated(const std::vector<IsolatedRead>& reads) {
+  const IsolatedRead* const end = reads.data() + reads.size();
+  for (const IsolatedRead* next = reads.data(); next != end;) next = runInOneChild(next, end);
 }
 
 }  // namespace presa

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "framework/geometry/mesh_import_plugin/mesh_reader.h"
 
@@ -11,9 +12,17 @@ struct IsolationLimits {
   unsigned seconds = 0;    ///< processor time [s]
 };
 
-/// Runs `work` in a child process and returns its mesh. An exception, a crash, or exhausted memory or time in the child
-/// becomes RawMesh::problem. Reason: the readers of assimp 5.2 crash on some damaged COLLADA, glTF and PLY files and
-/// allocate as much as a header claims; a scene with such a file must be refused, not take the program down.
-RawMesh runIsolated(const IsolationLimits& limits, const std::function<void(RawMesh&)>& work);
+/// Fills in `mesh` within `limits`.
+struct IsolatedRead {
+  IsolationLimits limits;
+  std::function<void(RawMesh&)> work;
+  RawMesh* mesh = nullptr;
+};
+
+/// Runs `reads`, one after the other, in a child process. An exception, a crash, or exhausted memory or time in the child
+/// becomes RawMesh::problem, and another child runs what is left. Reason: the readers of assimp 5.2 crash on some damaged
+/// COLLADA, glTF and PLY files and allocate as much as a header claims; a scene with such a file must be refused, not take
+/// the program down.
+void runIsolated(const std::vector<IsolatedRead>& reads);
 
 }  // namespace presa

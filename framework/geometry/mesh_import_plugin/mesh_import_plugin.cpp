@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <thread>
+#include <vector>
 
 #include "framework/geometry/mesh_import_abi.h"
 #include "framework/geometry/mesh_import_plugin/isolation.h"
@@ -47,20 +50,47 @@ struct OwnedMesh : ImportedMesh {
   RawMesh raw;
 };
 
-}  // namespace
-}  // namespace presa
-
-extern "C" __attribute__((visibility("default"))) const presa::ImportedMesh* presaImportMesh(const char* file,
-                                                                                             const char* extension,
-                                                                                             presa::MeshWanted wanted) {
+IsolationLimits limitsFor(const std::string& file) {
   std::error_code unknown;
   const std::uintmax_t found = std::filesystem::file_size(file, unknown);
   const std::uintmax_t size = unknown ? 0 : found;
-  const presa::IsolationLimits limits{
-      std::min(presa::kBaseMemory + presa::kMemoryPerByte * size, presa::kMaxMemory),
-      presa::kBaseSeconds + presa::kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
-  return new presa::OwnedMesh(
-      presa::runIsolated(limits, [&](presa::RawMesh& out) { presa::readMesh(file, extension, wanted, out); }));
+  return {std::min(kBaseMemory + kMemoryPerByte * size, kMaxMemory),
+          kBaseSeconds + kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
+}
+
+/// Every `step`-th file from `first` on, in a child of its own.
+void importEvery(std::size_t step, std::size_t first, std::span<const MeshFile> files, std::vector<RawMesh>& meshes) {
+  std::vector<IsolatedRead> reads;
+  for (std::size_t i = first; i < files.size(); i += step) {
+    const MeshFile& file = files[i];
+    reads.push_back({limitsFor(file.file),
+                     [file](RawMesh& out) { readMesh(file.file, file.extension, file.wanted, out); }, &meshes[i]});
+  }
+  runIsolated(reads);
+}
+
+std::vector<RawMesh> importAll(std::span<const MeshFile> files) {
+  std::vector<RawMesh> meshes(files.size());
+  const std::size_t children =
+      std::clamp<std::size_t>(files.size(), 1, std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::jthread> others;
+  for (std::size_t k = 1; k < children; ++k)
+    others.emplace_back([&meshes, files, children, k] { importEvery(children, k, files, meshes); });
+  importEvery(children, 0, files, meshes);
+  others.clear();  // waits for them
+  return meshes;
+}
+
+}  // namespace
+}  // namespace presa
+
+extern "C" __attribute__((visibility("default"))) void presaImportMeshes(const presa::MeshFile* files,
+                                                                         std::uint64_t count,
+                                                                         const presa::ImportedMesh** imported) {
+  std::vector<std::unique_ptr<presa::OwnedMesh>> owned;
+  for (presa::RawMesh& mesh : presa::importAll({files, count}))
+    owned.push_back(std::make_unique<presa::OwnedMesh>(std::move(mesh)));
+  for (std::unique_ptr<presa::OwnedMesh>& mesh : owned) *imported++ = mesh.release();
 }
 
 extern "C" __attribute__((visibility("default"))) void presaReleaseMesh(const presa::ImportedMesh* mesh) {
