@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -95,11 +96,14 @@ void limit(__rlimit_resource resource, std::size_t value) {
   setrlimit(resource, &wanted);
 }
 
-/// Processor time of this process, rounded up [s].
+/// Processor time of this process, rounded up [s]; a child that has just begun has used none.
 std::size_t secondsUsed() {
+  using std::chrono::seconds, std::chrono::microseconds, std::chrono::milliseconds;
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
-  return static_cast<std::size_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 2;
+  const auto sum = seconds(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                   microseconds(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  return sum < milliseconds(20) ? 0 : static_cast<std::size_t>(std::chrono::ceil<seconds>(sum).count());
 }
 
 /// Runs one read; what it allocates is counted from the memory that was mapped before the first.

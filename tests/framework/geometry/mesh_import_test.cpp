@@ -10,6 +10,7 @@
 #include <random>
 #include <sstream>
 
+#include "framework/geometry/model.h"
 #include "framework/geometry/tri_mesh.h"
 #include "tests/support/effort.h"
 
@@ -328,6 +329,34 @@ TEST_F(MeshImport, TwoHundredDamagedFilesAreSurvived) {
     EXPECT_EQ(report.non_finite + report.bad_index + report.degenerate + report.non_manifold + report.open_edges, 0u);
   }
   EXPECT_GT(refused, kFiles / 4);
+}
+
+// The files of a scene share a few processes. Where a reader crashes (a binary PLY without the end of its header) or does
+// not end (the same as text), the files behind it are read all the same, and each result stands where its file stood.
+TEST_F(MeshImport, FilesReadTogetherDoNotDisturbEachOther) {
+  const auto headless = [](std::string ply) { return ply.erase(ply.find("end_header"), 11); };
+  const std::vector<std::string> contents{obj(makeBox({1, 1, 1})), headless(plyBinary(box_)), headless(plyBinary(box_)),
+                                          obj(makeBox({2, 1, 1})), headless(plyText(box_)),   {},
+                                          obj(makeBox({3, 1, 1})), obj(makeBox({4, 1, 1}))};
+  const std::vector<double> widths{1, 0, 0, 2, 0, 0, 3, 4};  // 0: refused
+  std::vector<MeshOrder> orders;
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    const std::string name = std::to_string(i) + (contents[i].starts_with("ply") ? ".ply" : ".obj");
+    if (!contents[i].empty()) std::ofstream(folder_ / name, std::ios::binary) << contents[i];
+    orders.push_back({(folder_ / name).string(), {}, {"scene.xml", static_cast<int>(i) + 1, 1}, false});
+  }
+  const std::vector<DrawnMesh> read = importMeshes(orders, diagnostics_);
+  ASSERT_EQ(read.size(), widths.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const TriMesh& mesh = read[i].mesh;
+    EXPECT_EQ(mesh.triangles.empty() ? 0 : (boundsOf(mesh).high - boundsOf(mesh).low).x(), widths[i]) << i;
+  }
+  const std::string text = diagnostics_.text();
+  for (const char* line : {"scene.xml:2", "scene.xml:3", "scene.xml:5", "scene.xml:6"})
+    EXPECT_NE(text.find(line), std::string::npos) << text;
+  EXPECT_EQ(diagnostics_.errorCount(), 4u) << text;
+  EXPECT_NE(text.find("the reader crashed on it"), std::string::npos) << text;
+  EXPECT_NE(text.find("the reader did not finish in time"), std::string::npos) << text;
 }
 
 // The amphora of the pinch_and_lift scene has the width that the scene states at the grip.
