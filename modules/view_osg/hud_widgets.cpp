@@ -9,7 +9,9 @@
 namespace presa::view {
 namespace {
 
-constexpr float kLargeText = 19;  ///< glyphs of smaller text are 1.7 to 2.8 times as fine as a window of 720 lines shows it [line]
+/// Size from which text needs finer glyphs [line]; those of smaller text are 1.7 to 2.8 times as fine as a window of
+/// 720 lines shows them.
+constexpr float kLargeText = 19;
 
 }  // namespace
 
