@@ -63,7 +63,7 @@ TEST(PercroPicture, ShowsArmsWhereTheRigHasThem) {
 }
 
 // A recording has what the figure needs, and nothing else of the run is in it: the arms of a replay are those of the
-// run. At 3 s of both, to the pixels of an edge that the period of a picture moves: 20 of them; half a metre of arm is
+// run. At 3 s of both, to the pixels of an edge that the period of a picture moves: 20 of them. Another pose differs in
 // 500 and more.
 TEST(PercroPicture, AReplayDrawsTheArmsOfItsRun) {
   const std::string record = scratch("arms.h5");
