@@ -355,19 +355,20 @@ std::vector<TriMesh> run(std::span<Import> imports) {
     files.push_back(imports[i].file());
   }
   if (files.empty()) return meshes;
-  const auto failAll = [&](int code, const std::string& what, const std::string& help) {
-    for (const std::size_t i : prepared) imports[i].fail(code, what, help);
+  std::size_t k = 0;
+  const auto failRest = [&](int code, const std::string& what, const std::string& help) {
+    for (std::size_t i = k; i < prepared.size(); ++i) imports[prepared[i]].fail(code, what, help);
   };
   try {
     std::vector<Imported> imported = readFiles(files);
-    for (std::size_t k = 0; k < prepared.size(); ++k) {
+    for (; k < prepared.size(); ++k) {
       meshes[prepared[k]] = imports[prepared[k]].finish(*imported[k]);
       imported[k].reset();
     }
   } catch (const InputError& error) {
-    for (const Diagnostic& found : error.diagnostics().all()) failAll(300, found.message, found.help);
+    for (const Diagnostic& found : error.diagnostics().all()) failRest(300, found.message, found.help);
   } catch (const std::bad_alloc&) {
-    failAll(303, "the mesh does not fit into memory", "simplify the mesh");
+    failRest(303, "the mesh does not fit into memory", "simplify the mesh");
   }
   return meshes;
 }

@@ -20,7 +20,8 @@ class RetainedSpace {
   explicit RetainedSpace(Picture& picture, osg::ref_ptr<FrameGrabber> grabber = nullptr);
   /// The node to draw in place of the picture's own root.
   osg::Group* root() { return root_; }
-  /// Size of the window [pixel] and drawn fraction of its width and height.
+  /// Size of the window [pixel] and drawn fraction of its width and height; once above 1 (at most 2, averaged), it stays
+  /// above 1.
   void setSize(int width, int height, double share);
   /// Grey of what no part of the picture covers, 0 to 1.
   void clearTo(float grey);

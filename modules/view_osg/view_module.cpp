@@ -6,9 +6,9 @@
 #include <osg/Notify>
 
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/geometry/large_pages.h"
 #include "framework/session/module_plugin.h"
 #include "modules/view_osg/frame_image.h"
-#include "modules/view_osg/large_pages.h"
 
 namespace presa::view {
 namespace {
@@ -54,7 +54,7 @@ std::vector<std::string> ViewModule::stages() const {
 
 void ViewModule::start() {
   osg::setNotifyLevel(osg::FATAL);
-  growHeapInLargePages();
+  if (!windowed()) growHeapInLargePages(5);  // what a still of 1280 x 720 touches
   try {
     picture_ = std::make_unique<Picture>(world_, options_);
     if (plugin_parts_) picture_->space()->addChild(plugin_parts_->root());

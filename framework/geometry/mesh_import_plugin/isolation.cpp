@@ -1,8 +1,6 @@
 #include "framework/geometry/mesh_import_plugin/isolation.h"
 
 #include <fcntl.h>
-#include <malloc.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -18,6 +16,8 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+
+#include "framework/geometry/large_pages.h"
 
 namespace presa {
 namespace {
@@ -121,20 +121,6 @@ void work(const IsolatedRead& read, std::size_t mapped, RawMesh& mesh) {
   }
 }
 
-/// Lets the next large allocations come from a heap in large pages: assimp clears 16 MB for each OBJ, whose 4096 page
-/// faults would take longer than the file.
-void useLargePages() {
-#ifdef __GLIBC__
-  constexpr std::size_t kPage = 2U << 20U, kHeap = 24U << 20U;
-  mallopt(M_MMAP_THRESHOLD, 2 * kHeap);
-  mallopt(M_TRIM_THRESHOLD, 2 * kHeap);
-  void* const heap = std::malloc(kHeap);
-  const auto begin = (reinterpret_cast<std::uintptr_t>(heap) + kPage - 1) / kPage * kPage;
-  if (heap != nullptr) madvise(reinterpret_cast<void*>(begin), kHeap - kPage, MADV_HUGEPAGE);
-  std::free(heap);
-#endif
-}
-
 [[noreturn]] void child(int descriptor, const IsolatedRead* begin, const IsolatedRead* end) {
   // messages of a crashing reader would hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
@@ -143,7 +129,7 @@ void useLargePages() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // die with the parent
   limit(RLIMIT_CORE, 0);
   const std::size_t mapped = mappedData();
-  useLargePages();
+  growHeapInLargePages(1);  // assimp clears 16 MB for each OBJ
   bool heard = true;
   for (const IsolatedRead* read = begin; read != end && heard; ++read) {
     RawMesh mesh;
