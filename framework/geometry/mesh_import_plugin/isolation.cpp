@@ -16,6 +16,8 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <span>
+#include <thread>
 
 #include "framework/geometry/large_pages.h"
 
@@ -121,7 +123,7 @@ void work(const IsolatedRead& read, std::size_t mapped, RawMesh& mesh) {
   }
 }
 
-[[noreturn]] void child(int descriptor, const IsolatedRead* begin, const IsolatedRead* end) {
+[[noreturn]] void child(int descriptor, std::span<const IsolatedRead> reads) {
   // messages of a crashing reader would hide the finding that names the file
   if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
@@ -130,11 +132,10 @@ void work(const IsolatedRead& read, std::size_t mapped, RawMesh& mesh) {
   limit(RLIMIT_CORE, 0);
   const std::size_t mapped = mappedData();
   growHeapInLargePages(1);  // assimp clears 16 MB for each OBJ
-  bool heard = true;
-  for (const IsolatedRead* read = begin; read != end && heard; ++read) {
+  for (const IsolatedRead& read : reads) {
     RawMesh mesh;
-    work(*read, mapped, mesh);
-    heard = send(descriptor, mesh);
+    work(read, mapped, mesh);
+    if (!send(descriptor, mesh)) break;
   }
   _exit(0);  // run neither destructors nor exit handlers of the parent
 }
@@ -150,37 +151,66 @@ void refuse(RawMesh& mesh, std::string problem) {
   mesh.problem = std::move(problem);
 }
 
-/// Runs reads in one child until it ends; returns the first that is not settled.
-const IsolatedRead* runInOneChild(const IsolatedRead* begin, const IsolatedRead* end) {
+using Reads = std::span<const IsolatedRead>;
+
+/// A child that runs `left` one after the other and sends the result of each.
+struct Reader {
+  Reads left;
+  pid_t process = -1;
+  int results = -1;     ///< where the child's results arrive
+  std::string problem;  ///< why there is no child
+};
+
+Reader start(Reads reads) {
+  Reader reader;
+  reader.left = reads;
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    refuse(*begin->mesh, std::string("no pipe for the reader: ") + std::strerror(errno));
-    return begin + 1;
+    reader.problem = std::string("no pipe for the reader: ") + std::strerror(errno);
+    return reader;
   }
-  const pid_t process = fork();
-  if (process == 0) {
+  reader.process = fork();
+  if (reader.process == 0) {
     close(ends[0]);
-    child(ends[1], begin, end);
+    child(ends[1], reads);
   }
-  const int reason = errno;
+  if (reader.process < 0) reader.problem = std::string("no process for the reader: ") + std::strerror(errno);
   close(ends[1]);
-  const IsolatedRead* next = begin;
-  while (process > 0 && next != end && receive(ends[0], *next->mesh)) ++next;
-  close(ends[0]);
+  reader.results = ends[0];
+  return reader;
+}
+
+/// Takes what the child sends, until it ends; the read that ended it is refused.
+void receive(Reader& reader) {
+  while (reader.process > 0 && !reader.left.empty() && receive(reader.results, *reader.left.front().mesh))
+    reader.left = reader.left.subspan(1);
+  if (reader.results >= 0) close(reader.results);
   int status = 0;
-  while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  while (reader.process > 0 && waitpid(reader.process, &status, 0) < 0 && errno == EINTR) {
   }
-  if (next == end) return end;
-  refuse(*next->mesh,
-         process > 0 ? causeOfDeath(status) : std::string("no process for the reader: ") + std::strerror(reason));
-  return next + 1;
+  if (reader.left.empty()) return;
+  refuse(*reader.left.front().mesh, reader.process > 0 ? causeOfDeath(status) : reader.problem);
+  reader.left = reader.left.subspan(1);
 }
 
 }  // namespace
 
-void runIsolated(const std::vector<IsolatedRead>& reads) {
-  const IsolatedRead* const end = reads.data() + reads.size();
-  for (const IsolatedRead* next = reads.data(); next != end;) next = runInOneChild(next, end);
+void runIsolated(const std::vector<std::vector<IsolatedRead>>& groups) {
+  std::vector<Reads> left(groups.begin(), groups.end());
+  while (!left.empty()) {
+    // All children start while no thread of this function runs: a lock that another thread holds at a fork is never
+    // released in the child (the allocators of the sanitizers have such locks).
+    std::vector<Reader> readers;
+    for (const Reads& reads : left) readers.push_back(start(reads));
+    left.clear();
+    {
+      std::vector<std::jthread> others;
+      for (std::size_t i = 1; i < readers.size(); ++i) others.emplace_back([&reader = readers[i]] { receive(reader); });
+      receive(readers.front());
+    }
+    for (const Reader& reader : readers)
+      if (!reader.left.empty()) left.push_back(reader.left);
+  }
 }
 
 }  // namespace presa

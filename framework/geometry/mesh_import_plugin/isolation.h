@@ -19,10 +19,10 @@ struct IsolatedRead {
   RawMesh* mesh = nullptr;
 };
 
-/// Runs `reads`, one after the other, in a child process. An exception, a crash, or exhausted memory or time in the child
-/// becomes RawMesh::problem, and another child runs what is left. Reason: the readers of assimp 5.2 crash on some damaged
-/// COLLADA, glTF and PLY files and allocate as much as a header claims; a scene with such a file must be refused, not take
-/// the program down.
-void runIsolated(const std::vector<IsolatedRead>& reads);
+/// Runs each of `groups` in a child process of its own, all at once, and the reads of a group one after the other. No group
+/// is empty. An exception, a crash, or exhausted memory or time in a child becomes RawMesh::problem, and another child
+/// runs the rest of that group. Reason: the readers of assimp 5.2 crash on some damaged COLLADA, glTF and PLY files and
+/// allocate as much as a header claims; a scene with such a file must be refused, not take the program down.
+void runIsolated(const std::vector<std::vector<IsolatedRead>>& groups);
 
 }  // namespace presa

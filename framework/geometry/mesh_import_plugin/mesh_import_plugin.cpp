@@ -58,26 +58,18 @@ IsolationLimits limitsFor(const std::string& file) {
           kBaseSeconds + kSecondsPerMegabyte * static_cast<unsigned>(size >> 20)};
 }
 
-/// Every `step`-th file from `first` on, in a child of its own.
-void importEvery(std::size_t step, std::size_t first, std::span<const MeshFile> files, std::vector<RawMesh>& meshes) {
-  std::vector<IsolatedRead> reads;
-  for (std::size_t i = first; i < files.size(); i += step) {
-    const MeshFile& file = files[i];
-    reads.push_back({limitsFor(file.file),
-                     [file](RawMesh& out) { readMesh(file.file, file.extension, file.wanted, out); }, &meshes[i]});
-  }
-  runIsolated(reads);
-}
-
+/// By a child process on each core, to which the files are dealt in turn.
 std::vector<RawMesh> importAll(std::span<const MeshFile> files) {
   std::vector<RawMesh> meshes(files.size());
-  const std::size_t children =
-      std::clamp<std::size_t>(files.size(), 1, std::max(1U, std::thread::hardware_concurrency()));
-  std::vector<std::jthread> others;
-  for (std::size_t k = 1; k < children; ++k)
-    others.emplace_back([&meshes, files, children, k] { importEvery(children, k, files, meshes); });
-  importEvery(children, 0, files, meshes);
-  others.clear();  // waits for them
+  const std::size_t children = std::min<std::size_t>(files.size(), std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::vector<IsolatedRead>> groups(children);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const MeshFile& file = files[i];
+    groups[i % children].push_back({limitsFor(file.file),
+                                    [file](RawMesh& out) { readMesh(file.file, file.extension, file.wanted, out); },
+                                    &meshes[i]});
+  }
+  runIsolated(groups);
   return meshes;
 }
 
