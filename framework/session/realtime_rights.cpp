@@ -12,13 +12,17 @@
 
 namespace presa {
 
-RealtimeRights realtimeRights() {
-  RealtimeRights rights;
+std::string fifoRefusal() {
+  int refused = 0;
   std::thread([&] {
     const sched_param param{.sched_priority = kHapticPriority};
-    if (const int refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param); refused != 0)
-      rights.fifo = std::strerror(refused);
+    refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
   }).join();
+  return refused == 0 ? "" : std::strerror(refused);
+}
+
+RealtimeRights realtimeRights() {
+  RealtimeRights rights{.fifo = fifoRefusal(), .memory = {}};
   if (mlockall(MCL_CURRENT) != 0) rights.memory = std::strerror(errno);
   munlockall();
   return rights;

@@ -11,7 +11,10 @@ struct RealtimeRights {
   bool granted() const { return fifo.empty() && memory.empty(); }
 };
 
-/// Tries both rights, SCHED_FIFO on a temporary thread, and undoes them. Thread: main.
+/// Why the system refuses SCHED_FIFO, tried on a temporary thread; empty: it grants it. Thread: any.
+std::string fifoRefusal();
+
+/// Tries both rights and undoes them. Thread: main.
 RealtimeRights realtimeRights();
 
 /// Replaces realtimeRights() in tests.

@@ -4,10 +4,14 @@
 
 namespace presa {
 
-Run::Run(Loaded loaded, RunControl& control, Session::Options options)
-    : session_(std::make_unique<Session>(std::move(loaded), control, std::move(options))) {
+Run::Run(Loaded loaded, RunControl& control, Session::Options options) {
+  if (loaded.options.realtime) haptic_processor_.emplace();
+  session_ = std::make_unique<Session>(std::move(loaded), control, std::move(options));
   executor_ = makeExecutor(this->options().realtime, session_->graph(), RateTable(world().scene.rates), control);
   executor_->recordTo(session_->schedule());
+  executor_->onThread([this](RateGroup group) {
+    if (haptic_processor_ && group == RateGroup::kHaptic) haptic_processor_->bindCaller();
+  });
 }
 
 void Run::execute() {

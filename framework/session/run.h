@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/core/schedule/executor.h"
+#include "framework/session/haptic_processor.h"
 #include "framework/session/session.h"
 
 namespace presa {
@@ -43,6 +45,7 @@ class Run {
  private:
   void close();
 
+  std::optional<HapticProcessor> haptic_processor_;  // before any thread of the session starts
   std::unique_ptr<Session> session_;
   std::unique_ptr<Executor> executor_;
   std::function<void()> poll_ = [] {};

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The haptic tick of `presa run` alone and beside its window, in random order, so that a machine whose speed swings
-favours neither: beside_window.py [TURNS] [SECONDS], by default 38 turns of 5 s. It needs Xvfb and a built Presa."""
+"""The haptic tick of `presa run` alone, beside its window, and beside a window whose display server keeps off the haptic
+thread's processor, too. The order is random, so that a machine whose speed swings favours none.
+beside_window.py [TURNS] [SECONDS], by default 38 turns of 5 s. It needs Xvfb, two processors and a built Presa."""
 import json
 import math
 import os
@@ -12,7 +13,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-VIEWS = {"alone": "none", "window": "window"}
+VIEWS = {"alone": "none", "window": "window", "window, server apart": "window"}
 
 
 def tick(view, seconds, folder):
@@ -24,16 +25,24 @@ def tick(view, seconds, folder):
     return json.loads(summary.read_text(encoding="utf-8"))["rates"]["haptic"]["execution_us"]["p50"]
 
 
-def shift(times):
+def shift(alone, beside):
     """Ratio of the two by Hodges and Lehmann: the median over all pairs. Slow minutes of the machine move it little."""
-    return math.exp(statistics.median(math.log(w / a) for a in times["alone"] for w in times["window"]))
+    return math.exp(statistics.median(math.log(b / a) for a in alone for b in beside))
 
 
-def interval(times, draws=1000):
+def interval(alone, beside, draws=1000):
     """95 % interval of that ratio, by bootstrap."""
     chance = random.Random(1)
-    found = sorted(shift({name: chance.choices(v, k=len(v)) for name, v in times.items()}) for _ in range(draws))
+    found = sorted(shift(chance.choices(alone, k=len(alone)), chance.choices(beside, k=len(beside)))
+                   for _ in range(draws))
     return found[draws // 40], found[-1 - draws // 40]
+
+
+def keep_apart(process, apart):
+    """Whether all threads of this process keep off the processor that Presa keeps for its haptic thread: the last."""
+    every = os.sched_getaffinity(0)
+    for thread in os.listdir(f"/proc/{process.pid}/task"):
+        os.sched_setaffinity(int(thread), every - {max(every)} if apart else every)
 
 
 def main(turns=38, seconds=5):
@@ -45,15 +54,16 @@ def main(turns=38, seconds=5):
             times = {name: [] for name in VIEWS}
             for turn in range(turns):
                 for name in random.sample(list(VIEWS), len(VIEWS)):
+                    keep_apart(server, name.endswith("apart"))
                     times[name].append(tick(VIEWS[name], seconds, folder))
-                print(f"turn {turn + 1} of {turns}: alone {times['alone'][-1]:.2f} us, beside the window "
-                      f"{times['window'][-1]:.2f} us", flush=True)
+                print(f"turn {turn + 1} of {turns}:", ", ".join(f"{name} {found[-1]:.2f} us"
+                                                               for name, found in times.items()), flush=True)
         finally:
             server.terminate()
     for name, found in times.items():
-        print(f"{name}: median {statistics.median(found):.2f} us, min {min(found):.2f} us")
-    low, high = interval(times)
-    print(f"beside the window x {shift(times):.3f} (95 % interval {low:.3f} to {high:.3f})")
+        low, high = interval(times["alone"], found)
+        print(f"{name}: median {statistics.median(found):.2f} us, min {min(found):.2f} us, x "
+              f"{shift(times['alone'], found):.3f} (95 % interval {low:.3f} to {high:.3f})")
 
 
 if __name__ == "__main__":

@@ -1,21 +1,17 @@
 #include "apps/presa/device/doctor.h"
 
 #include <grp.h>
-#include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
-#include <thread>
 
 #include "apps/common/atomic_file.h"
 #include "apps/common/file_text.h"
 #include "apps/common/terminal/text.h"
 #include "framework/core/diagnostics/refuse.h"
+#include "framework/session/haptic_processor.h"
+#include "framework/session/realtime_rights.h"
 #include "framework/session/session.h"
 
 namespace presa::device {
@@ -28,25 +24,18 @@ constexpr const char* kLimits =
     "/etc/security/limits.d/presa.conf, then log in again";
 constexpr const char* kGroup = "plugdev";  // group that may open USB devices on Debian; the drivers' rules use it
 
-/// Tries on a thread of its own, which would keep the priority.
-int priorityRefused() {
-  int refused = 0;
-  std::thread([&refused] {
-    const sched_param param{.sched_priority = 80};
-    refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
-  }).join();
-  return refused;
+DeviceFinding findingOf(const std::string& refused, const std::string& what, const std::string& consequence) {
+  if (refused.empty()) return {Verdict::kFine, 0, "", what + " is allowed", ""};
+  return {Verdict::kWarning, 0, "", what + " is refused (" + refused + "): " + consequence, kLimits};
 }
 
-int lockRefused() {
-  if (mlockall(MCL_CURRENT) != 0) return errno;
-  munlockall();
-  return 0;
-}
-
-DeviceFinding findingOf(int refused, const std::string& what, const std::string& consequence) {
-  if (refused == 0) return {Verdict::kFine, 0, "", what + " is allowed", ""};
-  return {Verdict::kWarning, 0, "", what + " is refused (" + std::strerror(refused) + "): " + consequence, kLimits};
+/// Where SCHED_FIFO is allowed.
+DeviceFinding processorFinding() {
+  const HapticProcessor kept;
+  if (kept.number() >= 0)
+    return {Verdict::kFine, 0, "", terminal::format("processor %d is free for the haptic thread", kept.number()), ""};
+  return {Verdict::kWarning, 0, "", "no processor is free for the haptic thread: drawing may delay it",
+          "this process may use only one, or other runs keep them all"};
 }
 
 bool inGroup(const char* name) {
@@ -78,9 +67,11 @@ std::vector<Rule> rulesOf(const std::vector<std::string>& of_drivers, const std:
 
 Report computer(const std::vector<std::string>& of_drivers, const std::string& udev_folder) {
   Report report{"this computer", "", {}};
+  const RealtimeRights rights = realtimeRights();
   report.findings.push_back(
-      findingOf(priorityRefused(), "real-time priority (SCHED_FIFO)", "other programs may delay the haptic thread"));
-  report.findings.push_back(findingOf(lockRefused(), "locked memory", "a page fault may delay a tick"));
+      findingOf(rights.fifo, "real-time priority (SCHED_FIFO)", "other programs may delay the haptic thread"));
+  if (rights.fifo.empty()) report.findings.push_back(processorFinding());
+  report.findings.push_back(findingOf(rights.memory, "locked memory", "a page fault may delay a tick"));
   const std::vector<Rule> rules = rulesOf(of_drivers, udev_folder);
   if (!rules.empty() && geteuid() != 0 && !inGroup(kGroup))
     report.findings.push_back({Verdict::kWarning, 0, "", std::string("you are not in the group ") + kGroup,

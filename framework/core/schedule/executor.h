@@ -42,6 +42,8 @@ class Executor {
 
   /// Sets a function that run() calls on its own thread: every 100 haptic ticks in lockstep, every 20 ms in real time.
   void onPoll(std::function<void()> poll) { poll_ = std::move(poll); }
+  /// Sets a function that run() calls in real time on the thread of each group, before Module::start().
+  void onThread(std::function<void(RateGroup)> begin) { on_thread_ = std::move(begin); }
   void recordTo(ScheduleLog* schedule) noexcept { schedule_ = schedule; }  ///< null: none; call before run()
   /// Measures execution times with another clock [ns], such as threadCpuNs for studies of cost. Call before run().
   void timeBy(std::int64_t (*clock)() noexcept) noexcept { clock_ = clock; }
@@ -69,15 +71,16 @@ class Executor {
   /// One tick of one group with its timing and its row in the schedule.
   void stepTimed(RateGroup group, std::uint64_t index, Delay delay) noexcept;
 
-  Graph& graph_;                                      ///< not owned
-  RateTable rates_;                                   ///< rates of all groups
-  RunControl& control_;                               ///< not owned; shared with the main thread
-  ScheduleLog* schedule_ = nullptr;                   ///< null: not recorded
-  std::function<void()> poll_ = [] {};                ///< by onPoll()
-  std::int64_t (*clock_)() noexcept = monotonicNs;    ///< by timeBy() [ns]
-  std::array<GroupTiming, kRateGroupCount> timings_;  ///< by RateGroup
-  std::vector<std::string> notes_;                    ///< by notes()
-  double wall_seconds_ = 0;                           ///< by wallSeconds() [s]
+  Graph& graph_;                                                 ///< not owned
+  RateTable rates_;                                              ///< rates of all groups
+  RunControl& control_;                                          ///< not owned; shared with the main thread
+  ScheduleLog* schedule_ = nullptr;                              ///< null: not recorded
+  std::function<void()> poll_ = [] {};                           ///< by onPoll()
+  std::function<void(RateGroup)> on_thread_ = [](RateGroup) {};  ///< by onThread()
+  std::int64_t (*clock_)() noexcept = monotonicNs;               ///< by timeBy() [ns]
+  std::array<GroupTiming, kRateGroupCount> timings_;             ///< by RateGroup
+  std::vector<std::string> notes_;                               ///< by notes()
+  double wall_seconds_ = 0;                                      ///< by wallSeconds() [s]
 };
 
 /// Runs all groups on the calling thread in virtual time: deterministic to the bit, as fast as the machine can.

@@ -19,19 +19,11 @@
 namespace presa {
 namespace {
 
+/// SCHED_FIFO priority; 0: none.
 int priorityOf(RateGroup group) noexcept {
-  switch (group) {
-    case RateGroup::kHaptic:
-      return kHapticPriority;
-    case RateGroup::kDynamics:
-      return 60;
-    case RateGroup::kCollision:
-      return 50;
-    case RateGroup::kView:
-    case RateGroup::kBus:
-      return 0;
-  }
-  return 0;
+  if (group == RateGroup::kHaptic) return kHapticPriority;
+  if (group == RateGroup::kDynamics) return 60;
+  return group == RateGroup::kCollision ? 50 : 0;
 }
 
 // Touch the stack once, so that the first deep call does not fault a page in.
@@ -80,6 +72,7 @@ void RealtimeExecutor::run(double duration) {
 void RealtimeExecutor::runGroup(RateGroup group, double duration, Shared& shared) {
   pthread_setname_np(pthread_self(), (std::string("presa-") + toString(group)).c_str());
   prctl(PR_SET_TIMERSLACK, 1);  // wake at the deadline, not up to 50 us later
+  on_thread_(group);
   try {
     graph_.start(group);
   } catch (...) {
