@@ -6,9 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
+#include <fstream>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "framework/session/realtime_rights.h"
 
@@ -29,6 +32,25 @@ int claim(int processor) {
   return -1;
 }
 
+/// Highest clock frequency [kHz]; 0: the system does not say.
+long clockOf(int processor) {
+  std::ifstream file("/sys/devices/system/cpu/cpu" + std::to_string(processor) + "/cpufreq/cpuinfo_max_freq");
+  long kilohertz = 0;
+  file >> kilohertz;
+  return kilohertz;
+}
+
+/// The fastest first, for some machines have slow ones beside fast ones; among equals the last first.
+std::vector<int> inOrder(const cpu_set_t& processors) {
+  std::vector<std::pair<long, int>> found;
+  for (int i = 0; i < CPU_SETSIZE; ++i)
+    if (CPU_ISSET(i, &processors)) found.emplace_back(clockOf(i), i);
+  std::ranges::sort(found, std::greater{});
+  std::vector<int> order;
+  for (const auto& [clock, processor] : found) order.push_back(processor);
+  return order;
+}
+
 bool bindTo(const cpu_set_t& processors) noexcept { return sched_setaffinity(0, sizeof processors, &processors) == 0; }
 
 }  // namespace
@@ -36,10 +58,11 @@ bool bindTo(const cpu_set_t& processors) noexcept { return sched_setaffinity(0, 
 HapticProcessor::HapticProcessor() {
   cpu_set_t others;
   if (sched_getaffinity(0, sizeof others, &others) != 0 || CPU_COUNT(&others) < 2 || !fifoRefusal().empty()) return;
-  for (int processor = CPU_SETSIZE - 1; processor >= 0 && number_ < 0; --processor) {
-    if (!CPU_ISSET(processor, &others)) continue;
+  for (const int processor : inOrder(others)) {
     claim_ = claim(processor);
-    if (claim_ >= 0) number_ = processor;
+    if (claim_ < 0) continue;
+    number_ = processor;
+    break;
   }
   if (number_ < 0) return;
   CPU_CLR(number_, &others);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The haptic tick of `presa run` alone, beside its window, and beside a window whose display server keeps off the haptic
-thread's processor, too. The order is random, so that a machine whose speed swings favours none.
+"""The haptic tick of `presa run` alone, beside its window, and beside a window whose display server, too, keeps off the
+haptic thread's processor (the last: of equal ones Presa keeps that). The order is random, so that a machine whose speed
+swings favours none.
 beside_window.py [TURNS] [SECONDS], by default 38 turns of 5 s. It needs Xvfb, two processors and a built Presa."""
 import json
 import math
@@ -39,7 +40,7 @@ def interval(alone, beside, draws=1000):
 
 
 def keep_apart(process, apart):
-    """Whether all threads of this process keep off the processor that Presa keeps for its haptic thread: the last."""
+    """Whether all threads of this process keep off the last processor, which Presa keeps for its haptic thread."""
     every = os.sched_getaffinity(0)
     for thread in os.listdir(f"/proc/{process.pid}/task"):
         os.sched_setaffinity(int(thread), every - {max(every)} if apart else every)
