@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The haptic tick of `presa run` alone, beside its window, and beside a window whose display server, too, keeps off the
-haptic thread's processor (the last: of equal ones Presa keeps that). The order is random, so that a machine whose speed
-swings favours none.
+"""The haptic tick of `presa run` alone, beside a loop that keeps another processor busy, beside its window, and beside a
+window whose display server, too, keeps off the haptic thread's processor (the last: of equal ones Presa keeps that). The
+loop touches no memory, so its ratio tells what any work costs on this machine (a lower clock, say); the rest is the
+window's. The order is random, so that a machine whose speed swings favours none.
 beside_window.py [TURNS] [SECONDS], by default 38 turns of 5 s. It needs Xvfb, two processors and a built Presa."""
+import contextlib
 import json
 import math
 import os
@@ -14,7 +16,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-VIEWS = {"alone": "none", "window": "window", "window, server apart": "window"}
+VIEWS = {"alone": "none", "loop": "none", "window": "window", "window, server apart": "window"}
 
 
 def tick(view, seconds, folder):
@@ -39,6 +41,17 @@ def interval(alone, beside, draws=1000):
     return found[draws // 40], found[-1 - draws // 40]
 
 
+@contextlib.contextmanager
+def loop():
+    """A loop on the first processor while the block runs."""
+    with subprocess.Popen(["sh", "-c", "while :; do :; done"],
+                          preexec_fn=lambda: os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})) as busy:
+        try:
+            yield
+        finally:
+            busy.kill()
+
+
 def keep_apart(process, apart):
     """Whether all threads of this process keep off the last processor, which Presa keeps for its haptic thread."""
     every = os.sched_getaffinity(0)
@@ -56,15 +69,16 @@ def main(turns=38, seconds=5):
             for turn in range(turns):
                 for name in random.sample(list(VIEWS), len(VIEWS)):
                     keep_apart(server, name.endswith("apart"))
-                    times[name].append(tick(VIEWS[name], seconds, folder))
+                    with loop() if name == "loop" else contextlib.nullcontext():
+                        times[name].append(tick(VIEWS[name], seconds, folder))
                 print(f"turn {turn + 1} of {turns}:", ", ".join(f"{name} {found[-1]:.2f} us"
                                                                for name, found in times.items()), flush=True)
         finally:
             server.terminate()
     for name, found in times.items():
-        low, high = interval(times["alone"], found)
-        print(f"{name}: median {statistics.median(found):.2f} us, min {min(found):.2f} us, x "
-              f"{shift(times['alone'], found):.3f} (95 % interval {low:.3f} to {high:.3f})")
+        ratios = (f"x {shift(times[other], found):.3f} {other} (95 % interval {low:.3f} to {high:.3f})"
+                  for other in ("alone", "loop") for low, high in [interval(times[other], found)])
+        print(f"{name}: median {statistics.median(found):.2f} us, min {min(found):.2f} us,", ", ".join(ratios))
 
 
 if __name__ == "__main__":
