@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <concepts>
@@ -26,54 +27,71 @@ concept SizedAtLoad = std::default_initializable<T> && std::is_copy_assignable_v
 template <class T>
 concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
 
-/// Wait-free hand-over of the latest value from one writer thread to one reader thread (triple
-/// buffer). The writer never waits and never fails; the reader sees whole values in order and may miss
-/// some. Each value carries a version (1, 2, 3 …) and the writer's simulated time [s]. Several readers need
-/// one LatestValue each. Allocates only at construction, provided that `sized` is as large as later values.
+/// A value as it was published.
 template <ExchangedData T>
+struct alignas(64) Published {
+  T value{};                  ///< the initial value before the first publication
+  std::uint64_t version = 0;  ///< counted by the writer from 1; 0: none yet
+  double time = 0;            ///< the writer's simulated time [s]
+};
+
+/// Wait-free hand-over of the latest value from one writer thread to up to `MaxReaders` reader threads, which share the
+/// copy that the writer makes. The writer never waits and never fails; a reader sees whole values in order and may miss
+/// some. Allocates only before the first use, provided that `sized` is as large as later values.
+///
+/// A triple buffer for several readers: each has a mailbox with the newest slot and swaps it for the slot that it has
+/// finished with. These are two slots a reader, so of 2 n + 1 the writer always finds one that nobody can see.
+template <ExchangedData T, std::size_t MaxReaders = 1>
 class LatestValue {
  public:
-  LatestValue() = default;  ///< of default values T
-  /// Before either thread uses it; `sized` has the size of the values that publish() will get.
-  explicit LatestValue(const T& sized) {
-    for (Slot& slot : slots_) slot.value = sized;
+  /// `sized` has the size of the values that publish() will get.
+  explicit LatestValue(const T& sized = {}, std::size_t readers = 1) {
+    while (readers_ < readers) addReader(sized);
+  }
+  /// Before any thread uses it: one more reader, at most MaxReaders; returns its number, counted from 0.
+  std::size_t addReader(const T& sized) {
+    for (std::size_t i = 0; i < 2 * readers_ + 3; ++i) slots_[i].value = sized;
+    used_[0] += 2;
+    return readers_++;
   }
 
   /// Writer: copies `value` in and makes it the latest.
   void publish(const T& value, double time) noexcept {
-    Slot& slot = slots_[write_];
-    slot.value = value;
-    slot.time = time;
-    slot.version = ++published_;
-    // release: the slot's contents are visible to the thread that takes this index
-    write_ = middle_.exchange(static_cast<std::uint8_t>(write_ | kNew), std::memory_order_acq_rel) & kIndex;
+    const auto free = static_cast<std::uint8_t>(std::find(used_.begin(), used_.end(), 0) - used_.begin());
+    slots_[free].value = value;
+    slots_[free].time = time;
+    slots_[free].version = ++published_;
+    for (std::size_t i = 0; i < readers_; ++i) {
+      ++used_[free];
+      // release: the slot's contents are visible to the thread that takes this index
+      --used_[mailboxes_[i].newest.exchange(free | kNew, std::memory_order_acq_rel) & kIndex];
+    }
   }
 
   /// Reader: takes the latest value; false when there is none newer than the current one.
-  bool update() noexcept {
-    if ((middle_.load(std::memory_order_relaxed) & kNew) == 0) return false;
-    read_ = middle_.exchange(read_, std::memory_order_acq_rel) & kIndex;
+  bool update(std::size_t reader = 0) noexcept {
+    Mailbox& mine = mailboxes_[reader];
+    if ((mine.newest.load(std::memory_order_relaxed) & kNew) == 0) return false;
+    mine.held = mine.newest.exchange(mine.held, std::memory_order_acq_rel) & kIndex;
     return true;
   }
-
-  /// Reader: the value last taken. Before the first: version 0 and the initial value (a default T or `sized`).
-  const T& value() const noexcept { return slots_[read_].value; }
-  std::uint64_t version() const noexcept { return slots_[read_].version; }  ///< reader: counted by the writer from 1
-  double time() const noexcept { return slots_[read_].time; }               ///< reader: the writer's [s]
+  /// Reader: the value last taken.
+  const Published<T>& latest(std::size_t reader = 0) const noexcept { return slots_[mailboxes_[reader].held]; }
+  const T& value() const noexcept { return latest().value; }           ///< of the first reader
+  std::uint64_t version() const noexcept { return latest().version; }  ///< of the first reader
 
  private:
-  static constexpr std::uint8_t kNew = 4;
-  static constexpr std::uint8_t kIndex = 3;
-  struct alignas(64) Slot {
-    T value{};
-    std::uint64_t version = 0;
-    double time = 0;
+  static constexpr std::uint8_t kNew = 128, kIndex = 127;
+  struct Mailbox {
+    alignas(64) std::atomic<std::uint8_t> newest{0};
+    alignas(64) std::uint8_t held = 0;  // the reader's
   };
-  std::array<Slot, 3> slots_{};
-  alignas(64) std::atomic<std::uint8_t> middle_{1};
-  alignas(64) std::uint8_t write_ = 0;
+  std::array<Published<T>, 2 * MaxReaders + 1> slots_{};
+  std::array<Mailbox, MaxReaders> mailboxes_{};
+  // the writer's
+  alignas(64) std::array<std::uint8_t, 2 * MaxReaders + 1> used_{};  // by slot: how many mailboxes and readers have it
+  std::size_t readers_ = 0;
   std::uint64_t published_ = 0;
-  alignas(64) std::uint8_t read_ = 2;
 };
 
 }  // namespace presa

@@ -16,7 +16,7 @@ void Graph::start(RateGroup group) {
 void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
   Group& g = groupOf(group);
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
-    const std::uint64_t version = g.inputs[i]->pull();
+    const std::uint64_t version = g.inputs[i]->pull(group);
     if (row != nullptr) row->versions[i] = version;
   }
   if (row != nullptr) {
@@ -28,11 +28,11 @@ void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
 
 void Graph::stepModule(Group& group, std::size_t i, const Tick& tick) noexcept {
   group.modules[i]->step(tick);
-  for (BridgeBase* bridge : group.outputs[i].bridges) bridge->push(tick.time);
+  for (BridgeBase* bridge : group.outputs[i]) bridge->push(tick.time);
 }
 
 void Graph::pull(RateGroup group) noexcept {
-  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull();
+  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull(group);
 }
 
 void Graph::stop(RateGroup group) {
@@ -54,7 +54,7 @@ void Graph::keepHistory(std::size_t bytes) {
 bool Graph::replayStep(RateGroup group, const Tick& tick, const ScheduleRow& row) noexcept {
   Group& g = groupOf(group);
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
-    if (!g.inputs[i]->pullVersion(row.versions[i])) return false;
+    if (!g.inputs[i]->pullVersion(group, row.versions[i])) return false;
   }
   for (std::size_t i = 0; i < g.modules.size(); ++i) stepModule(g, i, tick);
   return true;

@@ -47,14 +47,10 @@ class Graph {
 
  private:
   friend class GraphBuilder;
-  struct Output {
-    Module* module;
-    std::vector<BridgeBase*> bridges;
-  };
   struct Group {
     std::vector<Module*> modules;
-    std::vector<Output> outputs;      ///< parallel to modules
-    std::vector<BridgeBase*> inputs;  ///< in the order of ScheduleRow::versions: by name
+    std::vector<std::vector<BridgeBase*>> outputs;  ///< by module
+    std::vector<BridgeBase*> inputs;                ///< in the order of ScheduleRow::versions: by name
     std::vector<std::string> input_names;
   };
   Group& groupOf(RateGroup group) noexcept { return groups_[static_cast<std::size_t>(group)]; }

@@ -72,23 +72,16 @@ void GraphBuilder::checkInputs() {
                          "add the module that writes '" + input->name() + "'" + didYouMean(input->name(), outputs));
     }
   }
-  std::set<std::pair<const OutPortBase*, RateGroup>> bridges;
-  std::set<std::pair<std::string, RateGroup>> names;
-  std::array<int, kRateGroupCount> count{};
-  for (const Link& link : links_) {
-    const RateGroup to = link.to->owner().group();
-    if (link.from->owner().group() == to || !bridges.insert({link.from, to}).second) continue;
-    if (isScheduled(to) && !names.insert({link.to->name(), to}).second) {
-      diagnostics_.error(508, kGraph,
-                         std::string("the ") + toString(to) + " group reads two values named '" + link.to->name() +
-                             "' across rates; a recording tells them apart by name",
-                         "rename a port");
-    }
-    if (++count[static_cast<std::size_t>(to)] == ScheduleRow::kMaxBridges + 1) {
-      diagnostics_.error(507, kGraph,
-                         std::string("the ") + toString(to) + " group reads more than " +
-                             std::to_string(ScheduleRow::kMaxBridges) + " values across rates");
-    }
+}
+
+void GraphBuilder::checkInput(const std::vector<std::string>& others, RateGroup group, const std::string& name) {
+  const std::string reads = std::string("the ") + toString(group) + " group reads ";
+  if (isScheduled(group) && std::find(others.begin(), others.end(), name) != others.end()) {
+    diagnostics_.error(508, kGraph, reads + "two values named '" + name + "' across rates",
+                       "rename a port: recordings tell values apart by name");
+  }
+  if (others.size() == ScheduleRow::kMaxBridges) {
+    diagnostics_.error(507, kGraph, reads + "more than " + std::to_string(others.size()) + " values across rates");
   }
 }
 
@@ -141,34 +134,36 @@ Graph GraphBuilder::build() {
   for (int g = 0; g < kRateGroupCount; ++g) {
     auto& group = graph.groups_[static_cast<std::size_t>(g)];
     group.modules = order(static_cast<RateGroup>(g));
-    for (Module* module : group.modules) group.outputs.push_back({module, {}});
+    group.outputs.resize(group.modules.size());
   }
-  if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
-
   // sorted by name: recordings of format 6 and older do not name their columns and rely on this order
   std::stable_sort(links_.begin(), links_.end(),
                    [](const Link& a, const Link& b) { return a.to->name() < b.to->name(); });
-  std::map<std::pair<const OutPortBase*, RateGroup>, BridgeBase*> bridges;
+  std::map<const OutPortBase*, BridgeBase*> bridges;
   for (const Link& link : links_) {
-    const RateGroup from = link.from->owner().group(), to = link.to->owner().group();
-    if (from == to) {
+    Graph::Group &from = graph.groupOf(link.from->owner().group()), &to = graph.groupOf(link.to->owner().group());
+    if (&from == &to) {
       link.from->connectDirect(*link.to);
       graph.connections_.push_back({link.from, link.to, nullptr});
       continue;
     }
-    BridgeBase*& bridge = bridges[{link.from, to}];
+    BridgeBase*& bridge = bridges[link.from];
     if (bridge == nullptr) {
       graph.bridges_.push_back(link.from->makeBridge());
       bridge = graph.bridges_.back().get();
-      graph.groupOf(to).inputs.push_back(bridge);
-      graph.groupOf(to).input_names.push_back(link.to->name());
-      for (auto& output : graph.groupOf(from).outputs) {
-        if (output.module == &link.from->owner()) output.bridges.push_back(bridge);
+      for (std::size_t i = 0; i < from.modules.size(); ++i) {
+        if (from.modules[i] == &link.from->owner()) from.outputs[i].push_back(bridge);
       }
+    }
+    if (std::find(to.inputs.begin(), to.inputs.end(), bridge) == to.inputs.end()) {
+      checkInput(to.input_names, link.to->owner().group(), link.to->name());
+      to.inputs.push_back(bridge);
+      to.input_names.push_back(link.to->name());
     }
     bridge->addReader(*link.to);
     graph.connections_.push_back({link.from, link.to, bridge});
   }
+  if (diagnostics_.hasErrors()) throw InputError(diagnostics_);
   graph.modules_ = std::move(modules_);
   return graph;
 }

@@ -36,6 +36,7 @@ class GraphBuilder {
   };
   void checkNames();
   void checkInputs();
+  void checkInput(const std::vector<std::string>& others, RateGroup group, const std::string& name);
   std::vector<Module*> order(RateGroup group);
 
   std::vector<std::unique_ptr<Module>> modules_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -14,19 +15,20 @@ namespace presa {
 /// How a reader treats a value older than InPortBase::oldAfter(). A declaration: the reader's step() implements it.
 enum class WhenOld { kHold, kExtrapolate, kFadeToZero };
 
-/// Carries one output across threads into one rate group. All readers in the group share the bridge, so that within
-/// a tick they see the same version.
+/// Carries one output across threads into other rate groups. All readers in a group share what the group pulled, so
+/// that within a tick they see the same version.
 class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
   virtual void addReader(InPortBase& reader) = 0;  ///< before the run: `reader`, of the same type, shows what is pulled
-  /// Reader's thread, before its group's step: takes the latest value; returns its version (0: none yet).
-  virtual std::uint64_t pull() noexcept = 0;
+  /// Thread of `group`, before its step: takes the latest value; returns its version (0: none yet). The group has readers.
+  virtual std::uint64_t pull(RateGroup group) noexcept = 0;
   /// Writer's thread, after its module's step: publishes the output with the tick's simulated time [s].
   virtual void push(double time) noexcept = 0;
   /// Replay only: keepHistory keeps published values in about `bytes`, pullVersion reads one of them; false: not there.
   virtual void keepHistory(std::size_t bytes) = 0;
-  virtual bool pullVersion(std::uint64_t version) noexcept = 0;  ///< in place of pull(); version 0 changes nothing
+  /// In place of pull(); version 0 changes nothing.
+  virtual bool pullVersion(RateGroup group, std::uint64_t version) noexcept = 0;
 };
 
 /// Output port of any type; registers with its module.
@@ -40,7 +42,7 @@ class OutPortBase {
 
  protected:
   friend class GraphBuilder;
-  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;  ///< for GraphBuilder: slots of the value's present size
+  virtual std::unique_ptr<BridgeBase> makeBridge() = 0;  ///< for GraphBuilder: the value has its final size
   virtual void connectDirect(InPortBase& reader) = 0;    ///< for GraphBuilder: `reader` sees the value in place
 
  private:
@@ -122,59 +124,61 @@ class In final : public InPortBase {
   bool direct_ = false;
 };
 
-/// Bridge of one type: a LatestValue, or in a replay the values kept by keepHistory().
+/// Bridge of one type: a LatestValue with a reader for each group, or in a replay the values kept by keepHistory().
 template <ExchangedData T>
 class Bridge final : public BridgeBase {
  public:
-  /// `source` already has its final size: the slots are copies of it.
-  explicit Bridge(const T& source) : source_(source), latest_(source) {}
+  explicit Bridge(const T& source) : source_(source) {}  ///< `source` already has its final size
 
   void addReader(InPortBase& reader) override {
-    readers_.push_back(static_cast<In<T>*>(&reader));
-    readers_.back()->sized_ = &latest_.value();
+    Lane& lane = laneOf(reader.owner().group());
+    if (lane.readers.empty()) lane.number = latest_.addReader(source_);
+    lane.readers.push_back(static_cast<In<T>*>(&reader));
+    lane.readers.back()->sized_ = &source_;
   }
-  std::uint64_t pull() noexcept override {
-    if (latest_.update()) show(latest_.value(), latest_.version(), latest_.time());
-    return latest_.version();
+  std::uint64_t pull(RateGroup group) noexcept override {
+    Lane& lane = laneOf(group);
+    if (latest_.update(lane.number)) lane.show(latest_.latest(lane.number));
+    return latest_.latest(lane.number).version;
   }
   void push(double time) noexcept override {
     if (history_.empty()) return latest_.publish(source_, time);
-    HistoryEntry& entry = history_[++pushed_ % history_.size()];
+    Published<T>& entry = history_[++pushed_ % history_.size()];
     entry.value = source_;
     entry.version = pushed_;
     entry.time = time;
   }
   void keepHistory(std::size_t bytes) override {
-    std::size_t each = sizeof(HistoryEntry);
+    std::size_t each = sizeof(Published<T>);
     if constexpr (SizedAtLoad<T>) each += source_.roomBytes();
     history_.resize(bytes / each + 64);
-    for (HistoryEntry& entry : history_) entry.value = source_;
+    for (Published<T>& entry : history_) entry.value = source_;
   }
-  bool pullVersion(std::uint64_t version) noexcept override {
+  bool pullVersion(RateGroup group, std::uint64_t version) noexcept override {
     if (version == 0) return true;
-    const HistoryEntry& entry = history_[version % history_.size()];
-    if (entry.version != version) return false;
-    show(entry.value, entry.version, entry.time);
-    return true;
+    const Published<T>& entry = history_[version % history_.size()];
+    if (entry.version == version) laneOf(group).show(entry);
+    return entry.version == version;
   }
 
  private:
-  struct HistoryEntry {
-    T value{};
-    std::uint64_t version = 0;
-    double time = 0;
-  };
-  void show(const T& value, std::uint64_t version, double time) noexcept {
-    for (In<T>* reader : readers_) {
-      reader->value_ = &value;
-      reader->version_ = version;
-      reader->time_ = time;
+  struct Lane {  // to the readers of one group
+    void show(const Published<T>& latest) noexcept {
+      for (In<T>* reader : readers) {
+        reader->value_ = &latest.value;
+        reader->version_ = latest.version;
+        reader->time_ = latest.time;
+      }
     }
-  }
+    std::size_t number = 0;
+    std::vector<In<T>*> readers;
+  };
+  Lane& laneOf(RateGroup group) noexcept { return lanes_[static_cast<std::size_t>(group)]; }
+
   const T& source_;
-  std::vector<In<T>*> readers_;
-  LatestValue<T> latest_;
-  std::vector<HistoryEntry> history_;
+  std::array<Lane, kRateGroupCount> lanes_;
+  LatestValue<T, kRateGroupCount> latest_{T(), 0};
+  std::vector<Published<T>> history_;
   std::uint64_t pushed_ = 0;
 };
 

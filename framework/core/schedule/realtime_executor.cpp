@@ -28,10 +28,8 @@ int priorityOf(RateGroup group) noexcept {
 
 // Touch the stack once, so that the first deep call does not fault a page in.
 void prefaultStack() noexcept {
-  constexpr std::size_t kBytes = 256 * 1024;
-  char stack[kBytes];
-  volatile char* page = stack;
-  for (std::size_t i = 0; i < kBytes; i += 4096) page[i] = 0;
+  volatile char stack[256 * 1024];
+  for (std::size_t i = 0; i < sizeof stack; i += 4096) stack[i] = 0;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ PngPicture drawDesk(const std::string& name, std::vector<std::string> show, std:
   module.start();
   feed.publish(states, 0.5);
   bridge.push(0.5);
-  bridge.pull();
+  bridge.pull(RateGroup::kView);
   module.step({30, 0.5, 1.0 / 60});
   module.stop();
   EXPECT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten);

@@ -115,7 +115,7 @@ void Feed::publish(const PinchStates& states, double time) {
        {static_cast<BridgeBase*>(&bridges_->device), static_cast<BridgeBase*>(&bridges_->contacts),
         static_cast<BridgeBase*>(&bridges_->forces), static_cast<BridgeBase*>(&bridges_->objects)}) {
     bridge->push(time);
-    bridge->pull();
+    bridge->pull(RateGroup::kView);
   }
 }
 

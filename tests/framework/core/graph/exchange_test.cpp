@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <thread>
+#include <vector>
 
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/exchange/latest_value.h"
@@ -15,32 +16,53 @@ struct Message {
   std::array<std::uint64_t, 256> words{};
 };
 
-// For any interleaving of the two threads, the reader never sees a torn value or an older value after a newer
-// one, and the version belongs to the value. (Under tsan: no race either.)
-TEST(LatestValue, ReaderNeverSeesTornOrOlderValue) {
-  LatestValue<Message> latest;
+// For any interleaving of the threads, no reader sees a torn value or an older value after a newer one, and the version
+// belongs to the value. (Under tsan: no race either.)
+template <std::size_t kReaders>
+void expectWholeValuesInOrder() {
+  LatestValue<Message, kReaders> latest({}, kReaders);
   constexpr std::uint64_t kCount = 200'000;
-  std::thread writer([&] {
-    Message message;
-    for (std::uint64_t i = 1; i <= kCount; ++i) {
-      message.words.fill(i);
-      latest.publish(message, static_cast<double>(i));
+  std::atomic<std::uint64_t> torn{0}, backwards{0}, mislabelled{0};
+  const auto read = [&](std::size_t reader) {
+    std::uint64_t last = 0;
+    while (last < kCount) {
+      if (!latest.update(reader)) continue;
+      const Published<Message>& seen = latest.latest(reader);
+      const std::uint64_t value = seen.value.words[0];
+      for (const std::uint64_t word : seen.value.words) torn += word != value ? 1 : 0;
+      backwards += value <= last ? 1 : 0;
+      mislabelled += seen.version != value || seen.time != static_cast<double>(value) ? 1 : 0;
+      last = value;
     }
-  });
-  std::uint64_t last = 0, torn = 0, backwards = 0, mislabelled = 0;
-  while (last < kCount) {
-    if (!latest.update()) continue;
-    const Message& message = latest.value();
-    const std::uint64_t value = message.words[0];
-    for (const std::uint64_t word : message.words) torn += word != value ? 1 : 0;
-    backwards += value <= last ? 1 : 0;
-    mislabelled += latest.version() != value || latest.time() != static_cast<double>(value) ? 1 : 0;
-    last = value;
+  };
+  std::vector<std::thread> readers;
+  for (std::size_t reader = 0; reader < kReaders; ++reader) readers.emplace_back(read, reader);
+  Message message;
+  for (std::uint64_t i = 1; i <= kCount; ++i) {
+    message.words.fill(i);
+    latest.publish(message, static_cast<double>(i));
   }
-  writer.join();
+  for (std::thread& reader : readers) reader.join();
   EXPECT_EQ(torn, 0u);
   EXPECT_EQ(backwards, 0u);
   EXPECT_EQ(mislabelled, 0u);
+}
+
+TEST(LatestValue, ReaderNeverSeesTornOrOlderValue) { expectWholeValuesInOrder<1>(); }
+TEST(LatestValue, ThreeReadersNeverSeeTornOrOlderValues) { expectWholeValuesInOrder<3>(); }
+
+// A reader that takes nothing keeps its value and costs the others none of theirs.
+TEST(LatestValue, EachReaderTakesWhenItLikes) {
+  LatestValue<int, 2> latest(0, 2);
+  for (int i = 1; i <= 20; ++i) {
+    latest.publish(10 * i, i);
+    ASSERT_TRUE(latest.update(0));
+    ASSERT_EQ(latest.latest(0).value, 10 * i);
+    if (i % 7 == 0) {
+      ASSERT_TRUE(latest.update(1));
+    }
+    ASSERT_EQ(latest.latest(1).value, 10 * (i - i % 7));
+  }
 }
 
 // Before the first publication there is nothing new, and version 0 says so.
