@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/haptics/nearest_feasible.h"
 
@@ -20,8 +21,8 @@ constexpr double kInContact = 1e-10;        // a gap below this makes a constrai
 constexpr double kStill = 1e-6;             // a shorter leg ends the motion: 8 nm for 8 mm, some 10 uN
 constexpr double kStillOfDepth = 1e-7;      // likewise relative to the depth, for small fingertips
 constexpr double kRounding = 64 * 2.2e-16;  // accuracy of a gap relative to the coordinates
-constexpr double kMargin = 0.01;            // distance moved before the surroundings are queried again
-constexpr double kFarther = 1.5;            // the same near a mesh, relative to the HIP's step
+constexpr double kMargin = 1e-3;            // distance moved near a mesh before it is queried again, relative to r
+constexpr double kFarther = 1.5;            // added to it, relative to the HIP's step
 constexpr double kAhead = 5e-3;             // mesh pieces this close, relative to the last leg, constrain the next leg
 constexpr double kMaxAhead = 3e-4;          // limit of that distance, relative to r
 constexpr int kMaxRenewals = 8;
@@ -191,9 +192,10 @@ ProxyMove moveProxy(const Vec3& start, const Vec3& g, double r, Surroundings& su
   result.x = start;
   const Tolerance tolerance(start, g, r);
   Leg leg;
+  // a query looks at all primitives anyway, so without meshes one serves the whole motion
   NearQuery query{start, surroundings.meshCount() == 0
-                             ? kMargin * r
-                             : kFarther * surroundings.step() + 0.1 * kMargin * r + 10 * tolerance.still};
+                             ? std::numeric_limits<double>::infinity()
+                             : kFarther * surroundings.step() + kMargin * r + 10 * tolerance.still};
   query.at(start, r, surroundings);
   bool met = false, arrived = false;
   double ahead = 0;
