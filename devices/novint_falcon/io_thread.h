@@ -48,7 +48,7 @@ class FalconIo {
   double silence_ = 0;   // haptic thread: since the last published sample [s]
   LatestValue<LinkSample> sample_;
   LatestValue<LinkStatus> status_;
-  LatestValue<Vec3> force_;
+  LatestValue<Vec3> force_{Vec3::Zero()};
   std::atomic<bool> stop_{false};
   std::atomic<std::uint32_t> rearms_{0}, rearms_done_{0};  // done: contained in the published sample
   std::atomic<int> refused_{-1};

@@ -49,7 +49,7 @@ std::map<std::string, ModuleTime> measureModuleTimes(Graph& graph, const RateTab
       const auto divisor = static_cast<std::uint64_t>(rates.divisor(group));
       if (!graph.runs(group) || i % divisor != 0) continue;
       const Tick tick = rates.tick(group, i / divisor);
-      graph.pull(group);
+      graph.pull(group, tick);
       for (std::size_t m = 0; m < graph.modules(group).size(); ++m) {
         const std::int64_t begin = monotonicNs();
         graph.stepModule(group, m, tick);

@@ -23,14 +23,6 @@ std::string positionText(const SourceLocation& where) {
 
 }  // namespace
 
-void Diagnostics::error(int code, const SourceLocation& where, std::string message, std::string help) {
-  add({Diagnostic::Severity::kError, code, std::move(message), std::move(help), where});
-}
-
-void Diagnostics::warning(int code, const SourceLocation& where, std::string message, std::string help) {
-  add({Diagnostic::Severity::kWarning, code, std::move(message), std::move(help), where});
-}
-
 void Diagnostics::add(Diagnostic diagnostic) {
   const bool is_error = diagnostic.severity == Diagnostic::Severity::kError;
   if (is_error) ++errors_;

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace presa {
@@ -32,8 +33,14 @@ struct Diagnostic {
 /// warnings) and says how many more there were.
 class Diagnostics {
  public:
-  void error(int code, const SourceLocation& where, std::string message, std::string help = {});    ///< 203: E203
-  void warning(int code, const SourceLocation& where, std::string message, std::string help = {});  ///< 203: W203
+  /// 203: E203.
+  void error(int code, const SourceLocation& where, std::string message, std::string help = {}) {
+    add({Diagnostic::Severity::kError, code, std::move(message), std::move(help), where});
+  }
+  /// 203: W203.
+  void warning(int code, const SourceLocation& where, std::string message, std::string help = {}) {
+    add({Diagnostic::Severity::kWarning, code, std::move(message), std::move(help), where});
+  }
 
   bool hasErrors() const noexcept { return errors_ > 0; }               ///< an error was reported, kept or dropped
   std::size_t errorCount() const noexcept { return errors_; }           ///< errors reported, the dropped ones included

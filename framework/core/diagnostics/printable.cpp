@@ -37,16 +37,13 @@ bool obeyed(std::uint32_t point) {
          point == 0xFEFF || in(0xFFF9, 0xFFFB) || in(0xE0000, 0xE007F);        // mark of order, notes, tags
 }
 
-template <class... Values>
-std::string print(const char* format, Values... values) {
+std::string print(const char* format, unsigned value) {
   std::array<char, 16> text;
-  std::snprintf(text.data(), text.size(), format, values...);
+  std::snprintf(text.data(), text.size(), format, value);
   return text.data();
 }
 
 }  // namespace
-
-std::string printable(std::string_view text) { return printable(text, text.size()); }
 
 std::string printable(std::string_view text, std::size_t max) {
   std::string shown;
@@ -55,9 +52,9 @@ std::string printable(std::string_view text, std::size_t max) {
     if (count == max) return shown + "...";
     const Character character = characterAt(text, at);
     if (character.bytes == 0 || (character.bytes == 1 && obeyed(character.point)))
-      shown += print("\\x%02X", static_cast<unsigned>(static_cast<unsigned char>(text[at])));
+      shown += print("\\x%02X", static_cast<unsigned char>(text[at]));
     else if (obeyed(character.point))
-      shown += print("\\u{%X}", static_cast<unsigned>(character.point));
+      shown += print("\\u{%X}", character.point);
     else
       shown += text.substr(at, character.bytes);
     at += character.bytes == 0 ? 1 : character.bytes;

@@ -31,8 +31,11 @@ concept ExchangedData = PlainData<T> || SizedAtLoad<T>;
 template <ExchangedData T>
 struct alignas(64) Published {
   T value{};                  ///< the initial value before the first publication
-  std::uint64_t version = 0;  ///< counted by the writer from 1; 0: none yet
+  std::uint64_t version = 0;  ///< counted by the writer from 1, with values left out; 0: none yet
   double time = 0;            ///< the writer's simulated time [s]
+  void set(const T& v, std::uint64_t n, double t) noexcept {
+    value = v, version = n, time = t;
+  }  ///< as large as before
 };
 
 /// Wait-free hand-over of the latest value from one writer thread to up to `MaxReaders` reader threads, which share the
@@ -55,12 +58,11 @@ class LatestValue {
     return readers_++;
   }
 
-  /// Writer: copies `value` in and makes it the latest.
-  void publish(const T& value, double time) noexcept {
+  /// Writer: copies `value` in and makes it the latest; the version by default follows the last one.
+  void publish(const T& value, double time, std::uint64_t version = 0) noexcept {
     const auto free = static_cast<std::uint8_t>(std::find(used_.begin(), used_.end(), 0) - used_.begin());
-    slots_[free].value = value;
-    slots_[free].time = time;
-    slots_[free].version = ++published_;
+    published_ = version > 0 ? version : published_ + 1;
+    slots_[free].set(value, published_, time);
     for (std::size_t i = 0; i < readers_; ++i) {
       ++used_[free];
       // release: the slot's contents are visible to the thread that takes this index

@@ -16,7 +16,7 @@ void Graph::start(RateGroup group) {
 void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
   Group& g = groupOf(group);
   for (std::size_t i = 0; i < g.inputs.size(); ++i) {
-    const std::uint64_t version = g.inputs[i]->pull(group);
+    const std::uint64_t version = g.inputs[i]->pull(group, tick);
     if (row != nullptr) row->versions[i] = version;
   }
   if (row != nullptr) {
@@ -28,11 +28,11 @@ void Graph::step(RateGroup group, const Tick& tick, ScheduleRow* row) noexcept {
 
 void Graph::stepModule(Group& group, std::size_t i, const Tick& tick) noexcept {
   group.modules[i]->step(tick);
-  for (BridgeBase* bridge : group.outputs[i]) bridge->push(tick.time);
+  for (BridgeBase* bridge : group.outputs[i]) bridge->push(tick);
 }
 
-void Graph::pull(RateGroup group) noexcept {
-  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull(group);
+void Graph::pull(RateGroup group, const Tick& tick) noexcept {
+  for (BridgeBase* bridge : groupOf(group).inputs) bridge->pull(group, tick);
 }
 
 void Graph::stop(RateGroup group) {

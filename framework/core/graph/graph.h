@@ -33,7 +33,7 @@ class Graph {
   void step(RateGroup group, const Tick& tick, ScheduleRow* row = nullptr) noexcept;
   void stop(RateGroup group);  ///< Module::stop() in reverse order: readers before their writers
   /// The parts of step(), for measuring: pull the group's inputs, then step modules(group)[i] and publish its outputs.
-  void pull(RateGroup group) noexcept;
+  void pull(RateGroup group, const Tick& tick) noexcept;
   /// Call pull() before the first one.
   void stepModule(RateGroup group, std::size_t i, const Tick& tick) noexcept { stepModule(groupOf(group), i, tick); }
 

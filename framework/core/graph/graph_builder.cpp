@@ -103,20 +103,16 @@ std::vector<Module*> GraphBuilder::order(RateGroup group) {
   while (!open.empty()) {
     const auto ready = std::find_if(open.begin(), open.end(), [&](const Module* m) { return waits_for(m) == nullptr; });
     if (ready == open.end()) {
-      // every remaining module waits for another one: follow the links backwards until a module repeats
-      std::vector<const Link*> walk;
+      // every remaining module waits for another one: follow the links backwards into the loop, then once around it
       const Module* at = open.front();
-      std::vector<const Module*> seen;
-      while (std::find(seen.begin(), seen.end(), at) == seen.end()) {
-        seen.push_back(at);
-        walk.push_back(waits_for(at));
-        at = &walk.back()->from->owner();
-      }
+      for (std::size_t i = 0; i < open.size(); ++i) at = &waits_for(at)->from->owner();
+      const Module* const begin = at;
       std::string loop;
-      for (auto link = walk.rbegin(); link != walk.rend(); ++link) {
-        loop += path(*(*link)->from) + " -> " + path(*(*link)->to) + "; ";
-        if (&(*link)->to->owner() == at) break;
-      }
+      do {
+        const Link& link = *waits_for(at);
+        loop = path(*link.from) + " -> " + path(*link.to) + "; " + loop;
+        at = &link.from->owner();
+      } while (at != begin);
       diagnostics_.error(506, kGraph, std::string("the ") + toString(group) + " group has a loop: " + loop,
                          "one of these must read the value of the tick before: give it state, or another rate");
       return {};

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -21,10 +23,12 @@ class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
   virtual void addReader(InPortBase& reader) = 0;  ///< before the run: `reader`, of the same type, shows what is pulled
-  /// Thread of `group`, before its step: takes the latest value; returns its version (0: none yet). The group has readers.
-  virtual std::uint64_t pull(RateGroup group) noexcept = 0;
-  /// Writer's thread, after its module's step: publishes the output with the tick's simulated time [s].
-  virtual void push(double time) noexcept = 0;
+  /// Thread of `group`, before the step of `tick`: takes the latest value; returns its version (0: none yet). The group
+  /// has readers.
+  virtual std::uint64_t pull(RateGroup group, const Tick& tick) noexcept = 0;
+  /// Writer's thread, after its module's step in `tick`: publishes the output, unless only view and bus read it and
+  /// neither is due before the next tick.
+  virtual void push(const Tick& tick) noexcept = 0;
   /// Replay only: keepHistory keeps published values in about `bytes`, pullVersion reads one of them; false: not there.
   virtual void keepHistory(std::size_t bytes) = 0;
   /// In place of pull(); version 0 changes nothing.
@@ -135,18 +139,20 @@ class Bridge final : public BridgeBase {
     if (lane.readers.empty()) lane.number = latest_.addReader(source_);
     lane.readers.push_back(static_cast<In<T>*>(&reader));
     lane.readers.back()->sized_ = &source_;
+    lane.due = -In<T>::kNever;
   }
-  std::uint64_t pull(RateGroup group) noexcept override {
+  std::uint64_t pull(RateGroup group, const Tick& tick) noexcept override {
     Lane& lane = laneOf(group);
     if (latest_.update(lane.number)) lane.show(latest_.latest(lane.number));
+    if (group >= RateGroup::kView) lane.due.store(tick.time + tick.period, std::memory_order_relaxed);
     return latest_.latest(lane.number).version;
   }
-  void push(double time) noexcept override {
-    if (history_.empty()) return latest_.publish(source_, time);
-    Published<T>& entry = history_[++pushed_ % history_.size()];
-    entry.value = source_;
-    entry.version = pushed_;
-    entry.time = time;
+  void push(const Tick& tick) noexcept override {
+    ++pushed_;
+    if (!history_.empty()) return history_[pushed_ % history_.size()].set(source_, pushed_, tick.time);
+    const double next = tick.time + 1.5 * tick.period;  // half a period more, so that rounding loses no tick
+    const auto due = [next](const Lane& lane) { return lane.due.load(std::memory_order_relaxed) <= next; };
+    if (std::ranges::any_of(lanes_, due)) latest_.publish(source_, tick.time, pushed_);
   }
   void keepHistory(std::size_t bytes) override {
     std::size_t each = sizeof(Published<T>);
@@ -172,6 +178,7 @@ class Bridge final : public BridgeBase {
     }
     std::size_t number = 0;
     std::vector<In<T>*> readers;
+    std::atomic<double> due{In<T>::kNever};  // written by the group: when it pulls next [s]
   };
   Lane& laneOf(RateGroup group) noexcept { return lanes_[static_cast<std::size_t>(group)]; }
 

@@ -63,8 +63,8 @@ class CollisionModuleTest : public testing::Test {
     device_.out.value.fingers[0].p_WH = p_WH;
     device_.out.value.fingers[0].v_WH = v_WH;
     for (BridgeBase* bridge : std::initializer_list<BridgeBase*>{device_bridge_.get(), objects_bridge_.get()}) {
-      bridge->push(tick_.time);
-      bridge->pull(RateGroup::kCollision);
+      bridge->push(tick_);
+      bridge->pull(RateGroup::kCollision, tick_);
     }
     module_->step(tick_);
     return module_->finger_neighbourhoods.value.fingers[0];
@@ -235,8 +235,8 @@ TEST_F(CollisionModuleTest, RoomIsThatOfTheScenesDevices) {
   EXPECT_EQ(neighbourhoods.fingers.size(), 1u);
   EXPECT_EQ(neighbourhoods.roomBytes(), sizeof(FingerNeighbourhood));
   device_.out.value.fingers.resize(2);
-  device_bridge_->push(0);
-  device_bridge_->pull(RateGroup::kCollision);
+  device_bridge_->push({});
+  device_bridge_->pull(RateGroup::kCollision, {});
   module_->step(tick_);
   EXPECT_EQ(neighbourhoods.count, 1);
 }

@@ -44,9 +44,10 @@ PngPicture drawDesk(const std::string& name, std::vector<std::string> show, std:
   Feed feed(module);
   module.start();
   feed.publish(states, 0.5);
-  bridge.push(0.5);
-  bridge.pull(RateGroup::kView);
-  module.step({30, 0.5, 1.0 / 60});
+  const Tick tick{30, 0.5, 1.0 / 60};
+  bridge.push(tick);
+  bridge.pull(RateGroup::kView, tick);
+  module.step(tick);
   module.stop();
   EXPECT_EQ(module.screenshot().outcome, View::Screenshot::Outcome::kWritten);
   return PngPicture(file);

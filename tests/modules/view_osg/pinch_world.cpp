@@ -114,8 +114,8 @@ void Feed::publish(const PinchStates& states, double time) {
   for (BridgeBase* bridge :
        {static_cast<BridgeBase*>(&bridges_->device), static_cast<BridgeBase*>(&bridges_->contacts),
         static_cast<BridgeBase*>(&bridges_->forces), static_cast<BridgeBase*>(&bridges_->objects)}) {
-    bridge->push(time);
-    bridge->pull(RateGroup::kView);
+    bridge->push({0, time, 0});
+    bridge->pull(RateGroup::kView, {0, time, 0});
   }
 }
 

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <thread>
 #include <vector>
 
 #include "framework/core/exchange/event_ring.h"
 #include "framework/core/exchange/latest_value.h"
+#include "framework/core/graph/graph_builder.h"
 
 namespace presa {
 namespace {
@@ -74,6 +76,84 @@ TEST(LatestValue, IsEmptyUntilPublished) {
   EXPECT_TRUE(latest.update());
   EXPECT_FALSE(latest.update());
   EXPECT_EQ(latest.version(), 1u);
+}
+
+/// Plain data that counts how often it is copied.
+struct Counted {
+  std::uint64_t number = 0;
+  Counted() = default;
+  Counted(const Counted&) = default;
+  Counted& operator=(const Counted& other) {
+    number = other.number;
+    ++copies;
+    return *this;
+  }
+  inline static int copies = 0;
+};
+
+struct TickSource final : Module {
+  Out<Counted> out{*this, "count"};
+  TickSource() : Module("source", RateGroup::kHaptic) {}
+  void step(const Tick& tick) noexcept override { out.value.number = tick.index + 1; }
+};
+
+struct Watcher final : Module {
+  In<Counted> in{*this, "count"};
+  explicit Watcher(RateGroup group) : Module("watcher", group) {}
+  void step(const Tick&) noexcept override {}
+};
+
+/// A source at 1 kHz, read at 50 Hz by `group`.
+struct Watch {
+  explicit Watch(RateGroup group) : reader(group) {
+    GraphBuilder builder;
+    builder.add(std::make_unique<TickSource>());
+    watcher = &builder.add(std::make_unique<Watcher>(group));
+    builder.connectByName();
+    graph = builder.build();
+    Counted::copies = 0;
+  }
+  void count(std::uint64_t tick) { graph.step(RateGroup::kHaptic, {tick, 1e-3 * static_cast<double>(tick), 1e-3}); }
+  /// Copies until the tick 20 n, at which the watcher looks.
+  int copiesUntilLook(std::uint64_t n) {
+    const int before = Counted::copies;
+    for (; next <= 20 * n; ++next) count(next);
+    graph.step(reader, {n, 0.02 * static_cast<double>(n), 0.02});
+    return Counted::copies - before;
+  }
+  RateGroup reader;
+  Watcher* watcher = nullptr;
+  Graph graph;
+  std::uint64_t next = 0;
+};
+
+// A view sees the value of its own instant, with the number of the tick, although only two ticks of twenty are copied for
+// it: the last one before it looks, in case that it is first, and the one at that instant.
+TEST(Bridge, CopiesForAViewOnlyWhenItIsDue) {
+  Watch watch(RateGroup::kView);
+  watch.copiesUntilLook(0);
+  for (std::uint64_t n = 1; n < 50; ++n) {
+    ASSERT_EQ(watch.copiesUntilLook(n), 2) << n;
+    ASSERT_EQ(watch.watcher->in->number, 20 * n + 1);
+    ASSERT_EQ(watch.watcher->in.version(), 20 * n + 1);
+  }
+}
+
+// A view that is late gets the latest value all the same.
+TEST(Bridge, CopiesEveryTickForAViewThatIsLate) {
+  Watch watch(RateGroup::kView);
+  watch.copiesUntilLook(0);
+  for (std::uint64_t tick = 1; tick < 38; ++tick) watch.count(tick);
+  watch.graph.step(RateGroup::kView, {1, 0.02, 0.02});
+  EXPECT_EQ(watch.watcher->in->number, 38U);
+}
+
+// Every value is there for the groups that a run's physics depends on, whenever they look.
+TEST(Bridge, CopiesEveryTickForTheDynamics) {
+  Watch watch(RateGroup::kDynamics);
+  watch.copiesUntilLook(0);
+  EXPECT_EQ(watch.copiesUntilLook(1), 20);
+  EXPECT_EQ(watch.watcher->in->number, 21U);
 }
 
 // Events arrive in order, and every lost event is counted.
