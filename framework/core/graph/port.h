@@ -23,8 +23,7 @@ class BridgeBase {
  public:
   virtual ~BridgeBase() = default;
   virtual void addReader(InPortBase& reader) = 0;  ///< before the run: `reader`, of the same type, shows what is pulled
-  /// Thread of `group`, before the step of `tick`: takes the latest value; returns its version (0: none yet). The group
-  /// has readers.
+  /// Thread of `group` before its step in `tick`, if it has readers: takes the latest value; returns its version, or 0.
   virtual std::uint64_t pull(RateGroup group, const Tick& tick) noexcept = 0;
   /// Writer's thread, after its module's step in `tick`: publishes the output, unless only view and bus read it and
   /// neither is due before the next tick.
@@ -139,20 +138,20 @@ class Bridge final : public BridgeBase {
     if (lane.readers.empty()) lane.number = latest_.addReader(source_);
     lane.readers.push_back(static_cast<In<T>*>(&reader));
     lane.readers.back()->sized_ = &source_;
-    lane.due = -In<T>::kNever;
+    dueOf(reader.owner().group()) = -1;
   }
   std::uint64_t pull(RateGroup group, const Tick& tick) noexcept override {
     Lane& lane = laneOf(group);
     if (latest_.update(lane.number)) lane.show(latest_.latest(lane.number));
-    if (group >= RateGroup::kView) lane.due.store(tick.time + tick.period, std::memory_order_relaxed);
+    if (group >= RateGroup::kView) dueOf(group).store(tick.time + tick.period, std::memory_order_relaxed);
     return latest_.latest(lane.number).version;
   }
   void push(const Tick& tick) noexcept override {
     ++pushed_;
-    if (!history_.empty()) return history_[pushed_ % history_.size()].set(source_, pushed_, tick.time);
     const double next = tick.time + 1.5 * tick.period;  // half a period more, so that rounding loses no tick
-    const auto due = [next](const Lane& lane) { return lane.due.load(std::memory_order_relaxed) <= next; };
-    if (std::ranges::any_of(lanes_, due)) latest_.publish(source_, tick.time, pushed_);
+    if (std::ranges::none_of(due_, [next](double due) { return due != 0 && due <= next; })) return;
+    if (history_.empty()) return latest_.publish(source_, tick.time, pushed_);
+    history_[pushed_ % history_.size()].set(source_, pushed_, tick.time);
   }
   void keepHistory(std::size_t bytes) override {
     std::size_t each = sizeof(Published<T>);
@@ -178,15 +177,17 @@ class Bridge final : public BridgeBase {
     }
     std::size_t number = 0;
     std::vector<In<T>*> readers;
-    std::atomic<double> due{In<T>::kNever};  // written by the group: when it pulls next [s]
   };
   Lane& laneOf(RateGroup group) noexcept { return lanes_[static_cast<std::size_t>(group)]; }
+  std::atomic<double>& dueOf(RateGroup group) noexcept { return due_[static_cast<std::size_t>(group)]; }
 
+  // in one cache line: all that a push without a copy reads. due_: when each group pulls next, by it [s]; 0: no reader
   const T& source_;
+  std::uint64_t pushed_ = 0;
+  std::array<std::atomic<double>, kRateGroupCount> due_{};
   std::array<Lane, kRateGroupCount> lanes_;
   LatestValue<T, kRateGroupCount> latest_{T(), 0};
   std::vector<Published<T>> history_;
-  std::uint64_t pushed_ = 0;
 };
 
 /// Output port: the module writes `value` in step(); the graph publishes it afterwards. A SizedAtLoad value must have
