@@ -131,7 +131,7 @@ class In final : public InPortBase {
 template <ExchangedData T>
 class Bridge final : public BridgeBase {
  public:
-  explicit Bridge(const T& source) : source_(source) {}  ///< `source` already has its final size
+  explicit Bridge(const T& source) : source_(source) { std::ranges::fill(due_, In<T>::kNever); }  ///< of final size
 
   void addReader(InPortBase& reader) override {
     Lane& lane = laneOf(reader.owner().group());
@@ -149,7 +149,7 @@ class Bridge final : public BridgeBase {
   void push(const Tick& tick) noexcept override {
     ++pushed_;
     const double next = tick.time + 1.5 * tick.period;  // half a period more, so that rounding loses no tick
-    if (std::ranges::none_of(due_, [next](double due) { return due != 0 && due <= next; })) return;
+    if (std::ranges::none_of(due_, [next](double due) { return due <= next; })) return;
     if (history_.empty()) return latest_.publish(source_, tick.time, pushed_);
     history_[pushed_ % history_.size()].set(source_, pushed_, tick.time);
   }
@@ -181,7 +181,7 @@ class Bridge final : public BridgeBase {
   Lane& laneOf(RateGroup group) noexcept { return lanes_[static_cast<std::size_t>(group)]; }
   std::atomic<double>& dueOf(RateGroup group) noexcept { return due_[static_cast<std::size_t>(group)]; }
 
-  // in one cache line: all that a push without a copy reads. due_: when each group pulls next, by it [s]; 0: no reader
+  // in one cache line: all that a push without a copy reads. due_: when each group pulls next, by it [s]
   const T& source_;
   std::uint64_t pushed_ = 0;
   std::array<std::atomic<double>, kRateGroupCount> due_{};
