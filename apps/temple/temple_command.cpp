@@ -168,6 +168,9 @@ int takePicture(const temple::Building& building, temple::SceneSpec spec, const 
   options.screenshot = a.screenshot;
   Diagnostics diagnostics;
   options.picture = pictureOf(a, diagnostics);
+  // A building that nobody rebuilds has no words for visitors; an engineer's figures are not for its picture.
+  if (!spec.to_be_built && options.picture.hud == PictureOptions::Hud::kFull)
+    options.picture.hud = PictureOptions::Hud::kOff;
   if (const auto folder = std::filesystem::path(a.screenshot).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder);
   Loaded loaded =
