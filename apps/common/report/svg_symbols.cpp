@@ -54,7 +54,7 @@ std::string pointLabels(const std::vector<PointLabel>& labels, const Box& area, 
     double reach = 0;
     Box chosen = boxAt(kSides[0], 10);
     bool found = false;
-    for (const double r : {10.0, 18.0, 28.0, 40.0, 54.0, 70.0}) {
+    for (const double r : {10.0, 18.0, 28.0, 40.0, 54.0, 70.0, 90.0, 115.0}) {
       for (const Side& side : kSides) {
         const Box box = boxAt(side, r);
         if (found || !free(box)) continue;

@@ -146,15 +146,18 @@ Csv csvOf(const WorkFigure& figure) {
   return csv;
 }
 
-/// Direct labels: first the default's and those of the front.
+/// Direct labels, as far as there is room: the default's, those of the front, then the others. Colours, the legend and
+/// the pointer tell the rest.
 std::string tags(const WorkFigure& figure, const LogScale& x, const LogScale& y) {
   std::vector<PointLabel> labels;
   std::vector<Box> taken;
-  for (const bool needed : {true, false}) {
+  for (const char* which : {"usual", "front", "other"}) {
     for (const WorkPoint& point : figure.points) {
+      if (point.css_class != which) continue;
       const Point at{x(point.at.x), heightOf(point, y)};
-      if (needed) taken.push_back({at.x - 6, at.y - 6, at.x + 6, at.y + 6});
-      if (!point.tag.empty() && (point.css_class != "other") == needed) labels.push_back({at, point.tag, needed});
+      const bool usual = point.css_class == "usual";
+      if (usual || point.css_class == "front") taken.push_back({at.x - 6, at.y - 6, at.x + 6, at.y + 6});
+      if (!point.tag.empty()) labels.push_back({at, point.tag, usual});
     }
   }
   for (const Level& level : figure.y_levels)

@@ -22,7 +22,7 @@ std::vector<FactorGain> factorGains(const Result& result, const std::string& met
 /// The sentences at the end of the report: at most one per rule.
 std::vector<std::string> sentences(const Result& result);
 
-/// What beats the default, and by how much, such as "no dearer at 1/2.21 of the error is coupling explicit".
+/// What beats the default, and by how much, such as "no dearer at 0.45 times the error is coupling explicit".
 std::string whatBeats(const Result& result, const FrontDistance& distance);
 
 /// The number that a text is; no value for other texts.

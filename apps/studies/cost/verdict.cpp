@@ -82,7 +82,7 @@ std::optional<double> gainOf(const Result& result, const Pairs& pairs, std::size
   return sum;
 }
 
-/// "0.98 times the processor time; 1/1.41 of the error (force, RMS error)"
+/// "0.98 times the processor time of the default; 0.71 times its error in force, RMS error"
 std::string gainText(const Result& result, std::size_t better) {
   const Pairs pairs(result);
   std::vector<std::string> parts;
@@ -93,7 +93,7 @@ std::string gainText(const Result& result, std::size_t better) {
       parts.push_back(
           format("%.3g times the processor time of the default", pair->other.cost.median / pair->usual.cost.median));
     parts.push_back(pair->other.error < pair->usual.error
-                        ? format("1/%.4g of its error in ", pair->usual.error / pair->other.error) + titleOf(metric)
+                        ? format("%.3g times its error in ", pair->other.error / pair->usual.error) + titleOf(metric)
                         : "the same " + titleOf(metric));
   }
   return listed(parts);

@@ -132,9 +132,10 @@ TEST(Sentences, SayWhatTheNumbersSay) {
   EXPECT_NE(texts[4].find("1 of 6 settings failed: cube was dropped (1)"), std::string::npos) << texts[4];
   EXPECT_EQ(texts[5], "The default lies on the front of force, RMS error.");
   result.outcomes.push_back(outcome("150", "soft", 0.005, 0.1));
-  EXPECT_EQ(sentences(result).back(),
-            "The default lies beyond 1.3 times of the front of force, RMS error: as accurate at 1/2 of the processor "
-            "time is rate 150 soft, and no dearer at 1/2 of the error is rate 150 soft.");
+  EXPECT_EQ(
+      sentences(result).back(),
+      "The default lies beyond 1.3 times of the front of force, RMS error: as accurate at 0.5 times the processor "
+      "time is rate 150 soft, and no dearer at 0.5 times the error is rate 150 soft.");
 }
 
 // A cost within 5 % is no reason: the timing of another run would turn it round.
