@@ -107,7 +107,8 @@ Manifest read(const xml::Element& root, const std::string& file) {
                     .module = readRole(root),
                     .file = file};
   for (const xml::Element& child : root.children("element")) {
-    Manifest::Element element{child.attribute("name"), placeOf(child.attribute("in")), {}, child.where()};
+    Manifest::Element element{
+        child.attribute("name"), placeOf(child.attribute("in")), {}, child.where(), child.attribute("quick") == "true"};
     for (const xml::Element& attribute : child.children("attribute"))
       element.attributes.push_back(readAttribute(attribute));
     manifest.elements.push_back(std::move(element));

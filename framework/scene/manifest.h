@@ -34,6 +34,9 @@ struct Manifest {
     Place place = Place::kBody;         ///< where it may stand
     std::vector<Attribute> attributes;  ///< those that it may have
     SourceLocation where;               ///< in the manifest
+    /// It changes the force much within a step of the dynamics, as ridges do: scenes that state no coupling then move
+    /// what fingers hold at the haptic rate, where that can be done.
+    bool quick = false;
   };
 
   /// When a run needs a module, and where it runs.

@@ -206,7 +206,8 @@ struct DynamicsSettings {
   Friction friction = Friction::kIsotropic;  ///< between bodies
   Rotation rotation = Rotation::kExact;      ///< of free bodies over a step
   bool sleeping = true;                      ///< bodies at rest and out of reach cost nothing
-  std::size_t max_held = 3;  ///< of kHapticRate: largest group of bodies in contact that the haptic thread moves
+  std::string coupling_reason{};  ///< why kHapticRate was chosen for a scene that states no coupling; else empty
+  std::size_t max_held = 3;       ///< of kHapticRate: largest group of bodies in contact that the haptic thread moves
 };
 
 /// A goal of an assembly: a target pose and the bodies that may fill it.

@@ -59,6 +59,8 @@ SceneFact assembly(const AskedRun& run) {
 
 SceneFact hapticRate(const AskedRun& run) {
   const bool is = run.scene.dynamics.coupling == DynamicsSettings::Coupling::kHapticRate;
+  const std::string& reason = run.scene.dynamics.coupling_reason;
+  if (!reason.empty()) return {"", true, reason};
   return {"", is, is ? "<dynamics coupling=\"haptic_rate\">" : "the scene's coupling is not 'haptic_rate'"};
 }
 

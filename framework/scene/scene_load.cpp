@@ -56,8 +56,10 @@ Scene loadDocument(xml::Document& document, bool from_file, const std::string& d
   checkScene(document.root(), diagnostics);
   checkSceneBus(document.root(), diagnostics);
   if (diagnostics.errorCount() > errors_before) return scene;  // all or nothing
+  const bool coupling_stated = statesCoupling(document.root());
   resolveScene(document, sceneSchema(), directory);
   scene = readScene(document.root(), document.name(), directory);
+  if (!coupling_stated) chooseCoupling(scene, document.root());
   checkJointLoops(scene, diagnostics);
   scene.resolved_xml = document.text();
   return scene;

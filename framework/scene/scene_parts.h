@@ -53,6 +53,11 @@ void applyOverrides(const xml::Element& root, const xml::ElementRule& rule, cons
 void resolveFrictionPresets(const xml::Element& root, Diagnostics& diagnostics);
 /// Reads a resolved document without errors into plain data.
 Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
+/// Whether `<dynamics>` of a document states the coupling.
+bool statesCoupling(const xml::Element& root);
+/// Gives a scene that states no coupling `haptic_rate` instead of `soft`, and writes it into the document, if a free body
+/// that fingers can touch has an element whose manifest says quick="true", and the haptic thread can move such bodies.
+void chooseCoupling(Scene& scene, const xml::Element& root);
 /// Checks rules that a schema cannot express: references, and values that depend on each other (E2xx).
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);
 /// Checks `<assembly>`: the bodies and goals it refers to, and whether the goals can be filled in some order.

@@ -1,0 +1,69 @@
+// The coupling of scenes that state none: at the haptic rate only where a plug-in's element calls for it and the haptic
+// thread can move what it acts on.
+#include <gtest/gtest.h>
+
+#include "tests/framework/scene/scene_text.h"
+
+namespace presa::scene_test {
+namespace {
+
+using Coupling = DynamicsSettings::Coupling;
+
+constexpr const char* kRidges = R"(<texture shape="sine" amplitude="0.0001" wavelength="0.002"/>)";
+
+/// kScene with ridges on the free cube.
+std::string ridged() {
+  return edited(kScene, R"(damping="1" color="0.75 0.25 0.2">)", R"(damping="1">)" + std::string(kRidges));
+}
+
+Scene load(const std::string& text, const std::vector<Override>& overrides = {}) {
+  Diagnostics findings;
+  Scene scene = parseScene(text, "scene.xml", "/lab", overrides, findings);
+  EXPECT_FALSE(findings.hasErrors()) << findings.text();
+  return scene;
+}
+
+void expectSoft(const std::string& text, const char* why) {
+  const Scene scene = load(text);
+  EXPECT_EQ(scene.dynamics.coupling, Coupling::kSoft) << why;
+  EXPECT_EQ(scene.dynamics.coupling_reason, "") << why;
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsAtTheHapticRateWhereForcesChangeWithinAStep) {
+  const Scene scene = load(ridged());
+  EXPECT_EQ(scene.dynamics.coupling, Coupling::kHapticRate);
+  EXPECT_EQ(scene.dynamics.coupling_reason, "<texture> changes the force on 'cube' within a step of the dynamics");
+  EXPECT_NE(scene.resolved_xml.find("coupling=\"haptic_rate\""), std::string::npos) << scene.resolved_xml;
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsSoftWhereNothingCallsForMore) {
+  expectSoft(kScene, "no element changes a force");
+  expectSoft(edited(kScene, R"(<material name="wood" stiffness="2000"/>)",
+                    R"(<material name="wood" stiffness="2000">)" + std::string(kRidges) + "</material>"),
+             "ridges on a fixed body");
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsSoftWhereTheHapticThreadCannotMoveTheBody) {
+  expectSoft(edited(ridged(), "mass=\"0.2\"", "mass=\"0.0009\""), "1000 N/m are too stiff for 0.9 g at 1000 Hz");
+  expectSoft(edited(ridged(), R"(<cylinder radius="0.03" length="0.07"/>)", R"(<mesh file="meshes/cube.obj"/>)"),
+             "a physics mesh, which ODE may collide");
+  expectSoft(edited(ridged(), "<body name=\"table\"", "<dynamics solver=\"direct\"/><body name=\"table\""),
+             "a solver of the engine");
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsNotThatOfASceneThatStatesOne) {
+  const std::string stated =
+      edited(ridged(), "<body name=\"table\"", "<dynamics coupling=\"soft\"/><body name=\"table\"");
+  EXPECT_EQ(load(stated).dynamics.coupling, Coupling::kSoft);
+  EXPECT_EQ(load(ridged(), {{.path = "dynamics/coupling", .value = "soft"}}).dynamics.coupling, Coupling::kSoft);
+}
+
+// A copy, as recordings hold it, states the coupling that was chosen.
+TEST(CouplingOfASceneThatStatesNone, IsThatOfItsCopy) {
+  const Scene copy = load(load(ridged()).resolved_xml);
+  EXPECT_EQ(copy.dynamics.coupling, Coupling::kHapticRate);
+  EXPECT_EQ(copy.dynamics.coupling_reason, "");
+}
+
+}  // namespace
+}  // namespace presa::scene_test
