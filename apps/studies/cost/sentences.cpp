@@ -200,10 +200,10 @@ std::string failures(const Result& result) {
 std::string whatBeats(const Result& result, const FrontDistance& distance) {
   std::string text;
   if (distance.cost > 1)
-    text = format("as accurate at %.3g times the processor time is ", 1 / distance.cost) +
+    text = format("as accurate at %.4g times the processor time is ", 1 / distance.cost) +
            result.outcomes[distance.as_accurate].setting.name;
   if (distance.error > 1)
-    text += (text.empty() ? "" : ", and ") + format("no dearer at %.3g times the error is ", 1 / distance.error) +
+    text += (text.empty() ? "" : ", and ") + format("no dearer at %.4g times the error is ", 1 / distance.error) +
             result.outcomes[distance.as_cheap].setting.name;
   return text;
 }

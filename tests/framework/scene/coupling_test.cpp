@@ -16,7 +16,7 @@ std::string ridged() {
   return edited(kScene, R"(damping="1" color="0.75 0.25 0.2">)", R"(damping="1">)" + std::string(kRidges));
 }
 
-Scene load(const std::string& text, const std::vector<Override>& overrides = {}) {
+Scene loadedScene(const std::string& text, const std::vector<Override>& overrides = {}) {
   Diagnostics findings;
   Scene scene = parseScene(text, "scene.xml", "/lab", overrides, findings);
   EXPECT_FALSE(findings.hasErrors()) << findings.text();
@@ -24,13 +24,13 @@ Scene load(const std::string& text, const std::vector<Override>& overrides = {})
 }
 
 void expectSoft(const std::string& text, const char* why) {
-  const Scene scene = load(text);
+  const Scene scene = loadedScene(text);
   EXPECT_EQ(scene.dynamics.coupling, Coupling::kSoft) << why;
   EXPECT_EQ(scene.dynamics.coupling_reason, "") << why;
 }
 
 TEST(CouplingOfASceneThatStatesNone, IsAtTheHapticRateWhereForcesChangeWithinAStep) {
-  const Scene scene = load(ridged());
+  const Scene scene = loadedScene(ridged());
   EXPECT_EQ(scene.dynamics.coupling, Coupling::kHapticRate);
   EXPECT_EQ(scene.dynamics.coupling_reason, "<texture> changes the force on 'cube' within a step of the dynamics");
   EXPECT_NE(scene.resolved_xml.find("coupling=\"haptic_rate\""), std::string::npos) << scene.resolved_xml;
@@ -54,13 +54,13 @@ TEST(CouplingOfASceneThatStatesNone, IsSoftWhereTheHapticThreadCannotMoveTheBody
 TEST(CouplingOfASceneThatStatesNone, IsNotThatOfASceneThatStatesOne) {
   const std::string stated =
       edited(ridged(), "<body name=\"table\"", "<dynamics coupling=\"soft\"/><body name=\"table\"");
-  EXPECT_EQ(load(stated).dynamics.coupling, Coupling::kSoft);
-  EXPECT_EQ(load(ridged(), {{.path = "dynamics/coupling", .value = "soft"}}).dynamics.coupling, Coupling::kSoft);
+  EXPECT_EQ(loadedScene(stated).dynamics.coupling, Coupling::kSoft);
+  EXPECT_EQ(loadedScene(ridged(), {{.path = "dynamics/coupling", .value = "soft"}}).dynamics.coupling, Coupling::kSoft);
 }
 
 // A copy, as recordings hold it, states the coupling that was chosen.
 TEST(CouplingOfASceneThatStatesNone, IsThatOfItsCopy) {
-  const Scene copy = load(load(ridged()).resolved_xml);
+  const Scene copy = loadedScene(loadedScene(ridged()).resolved_xml);
   EXPECT_EQ(copy.dynamics.coupling, Coupling::kHapticRate);
   EXPECT_EQ(copy.dynamics.coupling_reason, "");
 }

@@ -52,12 +52,12 @@ Result anyResult() {
   return result;
 }
 
-/// The largest factor that a text says something is better by: "1/2.21" is 2.21.
+/// The largest factor that a text says something is better by: "at 0.5 times the error" is 2.
 double largestClaim(const std::string& text) {
-  static const std::regex part("1/([0-9.e+]+) of");
+  static const std::regex part("at ([0-9.e+-]+) times the ");
   double largest = 1;
   for (std::sregex_iterator it(text.begin(), text.end(), part), end; it != end; ++it)
-    largest = std::max(largest, std::stod((*it)[1]));
+    largest = std::max(largest, 1 / std::stod((*it)[1]));
   return largest;
 }
 
