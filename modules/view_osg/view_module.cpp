@@ -61,6 +61,7 @@ void ViewModule::start() {
     if (time_ != nullptr) picture_->timeBar().offer(*time_, length_, options_.picture.hud != PictureOptions::Hud::kOff);
     if (windowed() && !scenes_.empty()) picture_->hud().offerScenes(scenes_, scene_);
     renderer_ = makeRenderer();
+    if (windowed() && canvas_ == nullptr && forVisitors(*world_)) drawRuins();
   } catch (const InputError&) {
     throw;  // a driver's figure
   } catch (const std::exception& error) {
@@ -91,12 +92,26 @@ std::unique_ptr<Renderer> ViewModule::makeRenderer() {
                             options_.picture);
 }
 
+// The first picture of many stones takes a second, for their meshes, textures and shadows. It comes before the run, in
+// whose first second the stones find their rest and the dynamics need a processor for themselves. Here the camera does
+// not follow the fingers, which are not known yet.
+void ViewModule::drawRuins() {
+  frame_.guidance.emplace().all = static_cast<std::int32_t>(world_->scene.assembly->goals.size());
+  follow();
+  show();
+  renderer_->render();
+}
+
+void ViewModule::follow() {
+  picture_->follow(frame_, timings_);
+  if (plugin_parts_) plugin_parts_->follow(frame_);
+}
+
 void ViewModule::step(const Tick& tick) noexcept {
   if (!renderer_ || broken_) return;
   try {
     copyPorts(tick);
-    picture_->follow(frame_, timings_);
-    if (plugin_parts_) plugin_parts_->follow(frame_);
+    follow();
     if ((windowed() || canvas_ != nullptr) && (time_ == nullptr || !time_->skip_picture)) drawWindow();
     if (video_ && video_->due(frame_.time)) film();
     if (screenshotDue()) saveScreenshot();

@@ -56,6 +56,8 @@ class ViewModule final : public View {
   std::unique_ptr<Renderer> makeRenderer();
   bool windowed() const { return options_.view == RunOptions::View::kWindow; }
   void copyPorts(const Tick& tick);
+  void follow();
+  void drawRuins();
   void drawWindow();
   void show();
   bool screenshotDue() const;
