@@ -6,6 +6,7 @@
 
 #include "framework/scene/inertia.h"
 #include "framework/scene/manifest.h"
+#include "framework/scene/physics_shapes.h"
 #include "framework/scene/scene_parts.h"
 
 namespace presa {
@@ -23,11 +24,8 @@ bool actsOn(const PluginElement& element, const Body& body, const Scene& scene) 
 }
 
 bool hasMesh(const Body& body) {
-  const auto is_mesh = [](const Shape& shape) { return std::holds_alternative<MeshRef>(shape); };
-  if (!body.physics) return false;
-  const auto* compound = std::get_if<Compound>(&body.physics->shape);
-  if (compound == nullptr) return is_mesh(body.physics->shape);
-  return std::ranges::any_of(compound->parts, is_mesh, &ShapePart::shape);
+  return std::ranges::any_of(physicsShapes(body, {}),
+                             [](const PhysicsShape& each) { return std::holds_alternative<MeshRef>(*each.shape); });
 }
 
 /// A tick of the haptic thread is short enough for the spring of a contact to move the body stably: k T^2 <= m.
