@@ -175,6 +175,23 @@ void follow(const Vec3& from, const Vec3& stretch, const Holding& now) noexcept 
   }
 }
 
+constexpr double kSamePlane = 0.99;  // cosine of 8 degrees; below, friction errs by 3 %
+
+/// The frictionless point may be round an edge while friction still holds the proxy before it. Then the law acts in the
+/// plane under the proxy: there the finger rubs. Returns whether the contact is changed so.
+bool isBeforeAnEdge(const Vec3& from, const Holding& now) noexcept {
+  ProxyContact& contact = now.contact;
+  const Held& held = now.held;
+  if (!now.own.empty() || held.bodies.size() != 1 || held.bodies[0].body != contact.body) return false;
+  const Vec3 normal = from - held.anchor;
+  const double length = normal.norm(), depth = (from - now.g).dot(normal);
+  if (!(depth > 0) || normal.dot(contact.nhat) >= kSamePlane * length) return false;
+  contact.nhat = normal / length;
+  contact.depth = depth / length;
+  contact.active = {};
+  return true;
+}
+
 /// Whether every body lets its anchor be where it is, and all anchors are one point of the surface.
 bool allStick(const Held& held) noexcept {
   return std::ranges::all_of(held.bodies, [&](const BodyFriction& one) {
@@ -195,9 +212,10 @@ std::int32_t holdByFriction(ProxyContact& contact, std::span<const RenderedConta
   if (!last.touching) held.anchor = contact.first_touch;
   const bool fresh = !last.touching || held.fresh;
   if (fresh) held.bodies.clear();
+  const Vec3& frictionless = isBeforeAnEdge(from, now) ? g : contact.state.god_object;
   gather(now, last.touching && last.slipping);
   for (BodyFriction& one : held.bodies) {
-    one.displacement = one.anchor - contact.state.god_object;
+    one.displacement = one.anchor - frictionless;
     one.displacement -= one.displacement.dot(contact.nhat) * contact.nhat;
   }
   const std::int32_t broken = ask(now, fresh);
