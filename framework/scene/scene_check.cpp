@@ -194,26 +194,11 @@ class SceneCheck {
     return listed(rates);
   }
 
-  // The haptic thread has Presa's own solvers only, and no snap constraints.
   void checkCoupling(const Element& dynamics) {
     if (dynamics.flawed("coupling") || dynamics.attribute("coupling") != "haptic_rate") return;
-    const auto refuse = [&](const SourceLocation& where, const std::string& found, const std::string& allowed) {
-      diagnostics_.error(kNotAtHapticRate, where, "the coupling 'haptic_rate' does not go with " + found, allowed);
-    };
-    const std::vector<std::pair<const char*, std::vector<std::string>>> own{
-        {"engine", {kDefaultEngine}},
-        {"solver", {"auto", "newton", "small_steps"}},
-        {"friction", {"isotropic"}},
-        {"rotation", {"exact"}}};
-    for (const auto& [name, allowed] : own) {
-      if (!dynamics.hasAttribute(name) || dynamics.flawed(name)) continue;
-      const std::string value = dynamics.attribute(name);
-      if (std::ranges::find(allowed, value) != allowed.end()) continue;
-      refuse(dynamics.where(name), std::string(name) + "=\"" + value + "\"",
-             std::string("allowed for ") + name + ": " + listed(allowed) + "; or another coupling");
-    }
-    for (const Element& assembly : root_.children("assembly"))
-      refuse(assembly.where(), "an <assembly>, whose snap constraints act in the dynamics", "use the coupling 'soft'");
+    for (const CouplingObstacle& obstacle : obstaclesToHapticRate(root_))
+      diagnostics_.error(kNotAtHapticRate, obstacle.where,
+                         "the coupling 'haptic_rate' does not go with " + obstacle.found, obstacle.allowed);
   }
 
   void checkFriction(const Element& material) {

@@ -55,8 +55,17 @@ void resolveFrictionPresets(const xml::Element& root, Diagnostics& diagnostics);
 Scene readScene(const xml::Element& root, const std::string& file, const std::string& directory);
 /// Whether `<dynamics>` of a document states the coupling.
 bool statesCoupling(const xml::Element& root);
-/// Gives a scene that states no coupling `haptic_rate` instead of `soft`, and writes it into the document, if a free body
-/// that fingers can touch has an element whose manifest says quick="true", and the haptic thread can move such bodies.
+/// A part of a scene that does not go with the coupling `haptic_rate`.
+struct CouplingObstacle {
+  SourceLocation where;  ///< of its attribute or element
+  std::string found;     ///< "solver="direct""
+  std::string allowed;   ///< as in error E228
+};
+/// The haptic thread has Presa's own solvers only, and no snap constraints.
+std::vector<CouplingObstacle> obstaclesToHapticRate(const xml::Element& root);
+/// Gives a scene that states no coupling `haptic_rate` instead of `soft`, and writes it into the document, if the force
+/// on a free body changes within a step of the dynamics (an element whose manifest says quick="true", a stiff surface, a
+/// quick spin), and the haptic thread can move the scene's bodies.
 void chooseCoupling(Scene& scene, const xml::Element& root);
 /// Checks rules that a schema cannot express: references, and values that depend on each other (E2xx).
 void checkScene(const xml::Element& root, Diagnostics& diagnostics);

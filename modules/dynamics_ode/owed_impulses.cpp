@@ -31,7 +31,7 @@ void OwedImpulses::read(const ContactExchange& exchange, double period, const Bo
     if (!is_unpaid) one.felt_W = Vec3::Zero();
     one.taken_back_W = -one.predicted_W;
     one.predicted_W = Vec3::Zero();
-    one.p_WP_before = one.p_WP;
+    one.p_BP_before = one.p_BP;
     one.touches = one.is_new = false;
     one.moves = bodies.moves(index(one.body));
   }
@@ -60,9 +60,9 @@ void OwedImpulses::push(BodySet& bodies) {
   for (Owed& one : all_) {
     if (!one.moves) continue;
     const std::size_t body = index(one.body);
-    one.p_WP = bodies.pose(body) * one.p_BP;
-    bodies.addForce(body, one.felt_W / period_, one.p_WP);
-    bodies.addForce(body, one.taken_back_W / period_, one.p_WP_before);
+    const Pose X_WB = bodies.pose(body);
+    bodies.addForce(body, one.felt_W / period_, X_WB * one.p_BP);
+    bodies.addForce(body, one.taken_back_W / period_, X_WB * one.p_BP_before);
   }
 }
 

@@ -11,19 +11,20 @@ namespace presa::ode {
 
 /// What the fingers felt and the bodies have not got: in a step that an implicit solve predicts, a body gets the force
 /// that its finger should feel at the end of the step; what the finger then feels is known a step later. The difference
-/// is given in that step, as forces at the proxies, so that the sums of impulse and angular impulse agree whatever changes
-/// the force: a hand that stops, a surface effect, the end of a contact. Torques about a contact's normal are left to the
-/// solve alone. For steps that begin at the sample of the exchange and take as long as it is held.
+/// is given in that step, as forces at the proxies, so that the sums of impulse agree whatever changes the force: a
+/// hand that stops, a surface effect, the end of a contact; and those of angular impulse about the centre of mass, but
+/// for the angle by which the body turns in a step. Torques about a contact's normal are left to the solve alone. For
+/// steps that begin at the sample of the exchange and take as long as it is held.
 class OwedImpulses {
  public:
   struct Owed {
     std::int32_t finger = 0, body = kNoBody;
-    bool moves = false;                // in this step; else it will be moved from the next one on, or elsewhere
-    bool is_new = true;                // no contact of this finger in the exchange before
-    bool touches = false;              // in this step's exchange
-    Vec3 p_BP = Vec3::Zero();          // where the finger's force acts, coordinates of the body [m]
-    Vec3 p_WP = Vec3::Zero();          // the same in this step
-    Vec3 p_WP_before = Vec3::Zero();   // in the step before
+    bool moves = false;    // in this step; else it will be moved from the next one on, or elsewhere
+    bool is_new = true;    // no contact of this finger in the exchange before
+    bool touches = false;  // in this step's exchange
+    // Where the finger's force acts, in coordinates of the body [m]. A prediction is taken back where it was given on the
+    // body, not in space: there it would turn a body that is carried at v by the torque h v x f.
+    Vec3 p_BP = Vec3::Zero(), p_BP_before = Vec3::Zero();
     Vec3 felt_W = Vec3::Zero();        // by the finger, on the body, to be given in this step [N s]
     Vec3 taken_back_W = Vec3::Zero();  // what the step before predicted, the other way [N s]
     Vec3 predicted_W = Vec3::Zero();   // in this step [N s]

@@ -178,11 +178,15 @@ void follow(const Vec3& from, const Vec3& stretch, const Holding& now) noexcept 
 constexpr double kSamePlane = 0.99;  // cosine of 8 degrees; below, friction errs by 3 %
 
 /// The frictionless point may be round an edge while friction still holds the proxy before it. Then the law acts in the
-/// plane under the proxy: there the finger rubs. Returns whether the contact is changed so.
+/// plane under the proxy: there the finger rubs. Returns whether the contact is changed so; never one with several
+/// bodies.
 bool isBeforeAnEdge(const Vec3& from, const Holding& now) noexcept {
   ProxyContact& contact = now.contact;
   const Held& held = now.held;
-  if (!now.own.empty() || held.bodies.size() != 1 || held.bodies[0].body != contact.body) return false;
+  if (held.bodies.size() != 1) return false;
+  bool alone = held.bodies[0].body == contact.body;
+  forEachConstraint(now, [&](std::int32_t body, const Vec3&) { alone = alone && body == contact.body; });
+  if (!alone || !now.own.empty()) return false;
   const Vec3 normal = from - held.anchor;
   const double length = normal.norm(), depth = (from - now.g).dot(normal);
   if (!(depth > 0) || normal.dot(contact.nhat) >= kSamePlane * length) return false;

@@ -72,7 +72,7 @@ Case make() {
         Trial trial;
         trial.parameters = {{"mean speed", number(speed) + " m/s"},
                             {"stiffness", number(stiffness / 1000) + " N/mm"},
-                            {"coupling", method.sets.empty() ? "soft" : "haptic rate"}};
+                            {"coupling", couplingOf(method)}};
         trial.method = method.name;
         trial.run = [=] { return pull(speed, stiffness, method); };
         trial.quick = speed > 0.2;

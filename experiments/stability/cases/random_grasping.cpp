@@ -115,14 +115,17 @@ Case make() {
   result.scene = "random_grasping.xml";
   const auto add = [&result](std::uint64_t seed, const Method& method) {
     Trial trial;
-    trial.parameters = {{"seed", number(static_cast<double>(seed))}};
+    trial.parameters = {{"seed", number(static_cast<double>(seed))}, {"coupling", couplingOf(method)}};
     trial.method = method.name;
     if (!method.own()) trial.expected = Verdict::kUnstable;
     trial.run = [=] { return grasp(seed, method); };
     trial.quick = seed == 1 && method.own();
     result.trials.push_back(std::move(trial));
   };
-  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) add(seed, ours());
+  for (std::uint64_t seed = 1; seed <= seeds(); ++seed) {
+    add(seed, ours());
+    add(seed, hapticRate());
+  }
   for (std::uint64_t seed = 1; seed <= 2; ++seed) add(seed, explicitCoupling());
   return result;
 }

@@ -64,8 +64,8 @@ TEST(HingeStop, NoFingerFeelsAStepAboveTheSlewLimit) {
     for (const double stiffness : {1000.0, 2000.0}) {
       for (const Method& method : {ours(), hapticRate()}) {
         const Pulled pulled = pull(speed, stiffness, method);
-        const std::string which = std::to_string(speed) + " m/s, " + std::to_string(stiffness) + " N/m, " +
-                                  (method.sets.empty() ? "soft" : "haptic rate");
+        const std::string which =
+            std::to_string(speed) + " m/s, " + std::to_string(stiffness) + " N/m, " + couplingOf(method);
         EXPECT_LT(pulled.step, 1) << which;
         EXPECT_LT(pulled.beyond, 1e-5) << which;
         EXPECT_LT(std::abs(pulled.left), 1e-5) << which;

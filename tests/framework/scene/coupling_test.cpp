@@ -1,5 +1,5 @@
-// The coupling of scenes that state none: at the haptic rate only where a plug-in's element calls for it and the haptic
-// thread can move what it acts on.
+// The coupling of scenes that state none: at the haptic rate only where forces change within a step of the dynamics and
+// the haptic thread can move the bodies.
 #include <gtest/gtest.h>
 
 #include "tests/framework/scene/scene_text.h"
@@ -34,6 +34,29 @@ TEST(CouplingOfASceneThatStatesNone, IsAtTheHapticRateWhereForcesChangeWithinASt
   EXPECT_EQ(scene.dynamics.coupling, Coupling::kHapticRate);
   EXPECT_EQ(scene.dynamics.coupling_reason, "<texture> changes the force on 'cube' within a step of the dynamics");
   EXPECT_NE(scene.resolved_xml.find("coupling=\"haptic_rate\""), std::string::npos) << scene.resolved_xml;
+}
+
+/// The reason for the haptic rate, or "".
+std::string reasonWith(const char* path, const char* value, const char* dynamics_rate = "200") {
+  return loadedScene(kScene, {{.path = path, .value = value}, {.path = "rates/dynamics", .value = dynamics_rate}})
+      .dynamics.coupling_reason;
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsAtTheHapticRateOnAStiffSurface) {
+  const char* const path = "material/rubber/stiffness";
+  EXPECT_EQ(reasonWith(path, "4000"),
+            "a finger at 50 mm/s changes the force on 'cube' by 1 N within a step of the dynamics");
+  EXPECT_EQ(reasonWith(path, "3100"), "");
+  EXPECT_NE(reasonWith(path, "1700", "100"), "") << "a step of twice the length";
+  EXPECT_EQ(reasonWith(path, "4000", "500"), "");
+  EXPECT_EQ(reasonWith("material/wood/stiffness", "20000"), "") << "of a fixed body";
+}
+
+TEST(CouplingOfASceneThatStatesNone, IsAtTheHapticRateForAQuickSpin) {
+  const char* const path = "body/cube/angular_velocity";
+  EXPECT_EQ(reasonWith(path, "0 30 0"), "'cube' turns by 0.15 rad within a step of the dynamics");
+  EXPECT_EQ(reasonWith(path, "0 10 0"), "");
+  EXPECT_EQ(reasonWith(path, "0 60 0"), "") << "too quick for the haptic thread";
 }
 
 TEST(CouplingOfASceneThatStatesNone, IsSoftWhereNothingCallsForMore) {
