@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "framework/core/schedule/clock.h"
-#include "framework/session/run.h"
+#include "framework/session/session.h"
 #include "tests/bench/shipped_scene.h"
 
 namespace presa {
@@ -53,45 +50,6 @@ BENCHMARK_CAPTURE(BM_HapticTickOfScene, cup_and_ball_held, "cup_and_ball.xml", "
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray, "tea_tray.xml")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(BM_HapticTickOfScene, tea_tray_held, "tea_tray.xml", "haptic_rate")->Unit(benchmark::kMillisecond);
-
-enum class Beside { kNothing, kLoop, kWindow };
-
-/// Keeps a processor busy that shares no memory with the ticks.
-void loop(const std::stop_token& stop) {
-  std::uint64_t x = 1;
-  while (!stop.stop_requested()) {
-    for (int i = 0; i < 1000; ++i) benchmark::DoNotOptimize(x = 6364136223846793005u * x + 1);
-  }
-}
-
-// The same tick of the cube in real time, on a thread of its own, alone, beside a busy processor, and beside a window.
-// Percentiles over the ticks of ten seconds. Where the processors are two halves of one core, the window can only be
-// compared with the loop. With a display, in turns:
-// xvfb-run -s '-screen 0 1280x720x24' build/bin/presa_bench --benchmark_filter=Beside/ --benchmark_repetitions=6
-//   --benchmark_enable_random_interleaving=true
-void BM_HapticTickBeside(benchmark::State& state, Beside beside) {
-  if (beside == Beside::kWindow && std::getenv("DISPLAY") == nullptr) {
-    state.SkipWithError("needs a display: xvfb-run");
-    return;
-  }
-  RunOptions options;
-  options.realtime = true;
-  options.view = beside == Beside::kWindow ? RunOptions::View::kWindow : RunOptions::View::kNone;
-  options.duration = 10;
-  RunControl control;
-  Run run(bench::loadShipped("cube.xml", {}, options), control);
-  for (auto _ : state) {
-    const std::jthread busy = beside == Beside::kLoop ? std::jthread(loop) : std::jthread();
-    run.execute();
-  }
-  const GroupTiming& haptic = run.timing(RateGroup::kHaptic);
-  state.counters["tick_p50_us"] = static_cast<double>(haptic.execution.percentile(0.5)) * 1e-3;
-  state.counters["tick_p99_us"] = static_cast<double>(haptic.execution.percentile(0.99)) * 1e-3;
-  state.counters["missed"] = static_cast<double>(haptic.missed + haptic.skipped);
-}
-BENCHMARK_CAPTURE(BM_HapticTickBeside, nothing, Beside::kNothing)->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_HapticTickBeside, loop, Beside::kLoop)->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_HapticTickBeside, window, Beside::kWindow)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace presa
